@@ -1,4 +1,4 @@
-// frond_recommend keeps its promises within a factor of two, on stems other than the one that was measured.
+// frond_recommend keeps its promises on stems: of errors within a factor of 1.2, of costs within two.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,15 +34,15 @@ ModelPtr stem(const Beam& beam) {
     return make_beam(beam, static_baseline());
 }
 
-TEST(Recommend, KeepsItsErrorWithinAFactorOfTwo) {
+TEST(Recommend, KeepsItsErrorWithinAFifth) {
     Session session;
     session.effort = Effort::TINY;
     for (const Beam& beam : BEAMS)
-        for (double wanted : {0.2, 0.04}) {
+        for (double wanted : {0.2, 0.04, 0.01}) {
             const frond_advice advice = advice_for(*stem(beam), wanted, 0);
             EXPECT_LE(advice.error, wanted);
             const Outcome outcome = sway_of(beam, setup_of(advice), session);
-            EXPECT_LE(outcome.error, 2 * advice.error) << beam.young << " " << wanted;
+            EXPECT_LE(outcome.error, 1.2 * advice.error) << beam.young << " " << wanted;
         }
 }
 
@@ -89,6 +89,18 @@ TEST(Recommend, TakesStepsInProportionToThePeriod) {
     const frond_advice a = advice_for(*stem(BEAMS[1]), 0.1, 0), b = advice_for(*stem(soft), 0.1, 0);
     EXPECT_NEAR(b.time_step / a.time_step, std::sqrt(10.0), 0.01);
     EXPECT_EQ(a.plant.mechanics, b.plant.mechanics);
+}
+
+TEST(Recommend, KnowsTheStemsOfACookedModel) {
+    const ModelPtr model = stem(BEAMS[1]);
+    std::vector<uint8_t> bytes(frond_model_get_saved_size(model->handle));
+    must(frond_model_save_bytes(model->handle, bytes.data(), bytes.size()));
+    frond_model again = {};
+    must(frond_model_load_bytes(bytes.data(), bytes.size(), &again));
+    const frond_advice a = advice_for(*model, 0.05, 0), b = advice_for(Model(again), 0.05, 0);
+    EXPECT_EQ(a.capsule_height, b.capsule_height);
+    EXPECT_EQ(a.time_step, b.time_step);
+    EXPECT_EQ(a.error, b.error);
 }
 
 TEST(Recommend, RefusesWhatCannotBeAndSaysWhatCan) {

@@ -1,5 +1,4 @@
 // frond study: measures what accuracy costs in time.
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -14,7 +13,6 @@ namespace {
 struct StudyOptions {
     std::vector<std::string> names;
     std::string out = "study";
-    std::string advice;  // file for the table of frond_recommend
     bool quick = false;
 };
 
@@ -114,13 +112,6 @@ void run_study(const StudyOptions& options) {
         write_diagram(figures.back(), options.out, row->name);
         std::printf("%-18s drawn\n", row->name);
     }
-    if (!options.advice.empty()) {
-        const auto sway = std::find_if(results.begin(), results.end(), [](const study::Result& result) {
-            return std::string(result.problem->name) == "sway";
-        });
-        if (sway == results.end()) throw SceneError("--advice needs the problem sway; name it too");
-        study::write_file(options.advice, study::advice_of(*sway, provenance));
-    }
     study::write_file(options.out + "/README.md",
                       study::summary_of(results, figures, provenance, command_line(options)));
     std::printf("open %s/README.md\n", options.out.c_str());
@@ -135,8 +126,6 @@ void add_study(CLI::App& app) {
     command->add_option("problem", options->names, "names of problems, or all; none: list them");
     command->add_flag("--quick", options->quick, "fewer points: all problems in a minute or two");
     command->add_option("--out", options->out, "folder to write to, default study");
-    command->add_option("--advice", options->advice,
-                        "write the front of the problem sway to this file, as the table of frond_recommend");
     command->callback([options] { run_study(*options); });
 }
 

@@ -19,9 +19,6 @@ std::string gnuplot_of(const Result& result, const std::string& picture_base);
 std::string summary_of(const std::vector<Result>& results, const std::vector<Figure>& figures,
                        const Provenance& provenance, const std::string& command);
 
-// Returns the front of the problem "sway" as rows of plugin/src/api/recommend_front.inc.
-std::string advice_of(const Result& result, const Provenance& provenance);
-
 // Return a field of a CSV file, quoted where necessary (RFC 4180); a cell of a Markdown table; a text for gnuplot.
 std::string csv_field(const std::string& text);
 std::string markdown_cell(const std::string& text);

@@ -172,19 +172,27 @@ FROND_API frond_result frond_world_get_energy_ledger(frond_world world, frond_en
 /* ---- advice: which settings for which accuracy -------------------------------------------------------------- */
 
 typedef struct frond_advice {
-    frond_plant_def plant; /* the default one with mechanics and integrator set */
+    frond_plant_def plant; /* the default one with mechanics, integrator and tuning.mass set */
     double cage_size;      /* for a frond_model_def [m]; 0: the cage does not matter */
     double capsule_height; /* for a frond_model_def [m]; 0: the chain does not matter */
     double time_step;      /* at most; for frond_world_step or frond_world_def.max_substep [s] */
-    double error;          /* expected, of the tip: rms over two periods of the first mode, over its peak [-] */
-    double cpu;            /* expected CPU seconds per simulated second, on the processor of the table */
+    double error;          /* of the tip: rms over two periods of the first mode, over its peak [-] */
+    double cpu;            /* expected CPU seconds per simulated second, alone in its world, on an AMD EPYC */
 } frond_advice;
 
-/* Recommends settings for a model from a table of measured ones (plugin/src/api/recommend_front.inc, made by
- * `frond study sway --advice`), scaled to its length, its first natural frequency and its number of capsules or tets.
- * Either error or cpu is above zero: with `error`, 0..1, the cheapest settings that are as accurate; with `cpu` the
- * most accurate that cost no more. Build the model anew with the sizes that come back. UNSUPPORTED, with a text that
- * names what there is, if no settings do. */
+/* Recommends settings for a model, always as rods. Either error or cpu is above zero: with `error`, 0..1, the cheapest
+ * settings that are as accurate; with `cpu` the most accurate of those tried that cost no more. UNSUPPORTED, with a
+ * text that names what there is, if no settings do. The error is that of the chain's tip, the node farthest from its
+ * root along the chain, which a small horizontal force held aside where it gives way most, once the force ceases: held
+ * at its roots, without damping, contacts and wind, at the chain's shape as modelled, under weight if it stands so and
+ * else without. It is computed for this model, from the modes that the force excites and what the integrator makes of
+ * them in such steps, and holds within a fifth. The first mode is the one that the tip shows most of, with those of
+ * nearly its frequency. A model of stems is to be built anew with the capsule_height that comes back; its error is
+ * against capsules of a 320th of the way to the tip. The chain of a mesh, of tets or of a URDF file is another plant
+ * with each capsule_height, since it is measured anew, or has its own: what comes back is the height that it has, the
+ * model need not be built anew, and the error is against the same capsules with FROND_MASS_CONSISTENT in exact steps.
+ * CPU is by measured steps of rods. Takes as long as making the rods of such a model a dozen times: some tenths of a
+ * second for a few stems. */
 FROND_API frond_result frond_recommend(frond_model model, double error, double cpu, frond_advice* out);
 
 #ifdef __cplusplus

@@ -41,9 +41,10 @@ struct Model {
     std::vector<Organ> organs;
     Chain chain;
     ChainArrays chain_view;
-    std::vector<Section> sections;   // section of the capsule between a chain node and its parent, one per chain node
-    bool exact_sections = false;     // sections are given, not measured on the surface
-    std::vector<double> chain_mass;  // part of the plant's mass at each chain node [kg]
+    std::vector<Section> sections;  // section of the capsule between a chain node and its parent, one per chain node
+    bool exact_sections = false;    // sections are given, not measured on the surface
+    StemSource stem_source;
+    std::vector<double> chain_mass;     // part of the plant's mass at each chain node [kg]
     std::vector<double> organ_stiffer;  // factor by which each organ is stiffer than its material so that it stands [-]
     bool calibrated = false;            // tet_young is fitted, for order 1 only; else it is the material's
     bool stands_as_modelled = false;    // under GRAVITY; else the modelled shape is the rest shape

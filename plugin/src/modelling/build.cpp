@@ -150,6 +150,10 @@ std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_
         make_chain_of_stems(stems, stem_count, model->surface, placement_of(made, model->surface), model->organs,
                             {def.capsule_height, def.capsule_radius, {}}, model->sections, {}, sections);
     model->exact_sections = true;
+    model->stem_source.stems.assign(stems, stems + stem_count);
+    if (sections) model->stem_source.sections.assign(sections, sections + stem_count);
+    model->stem_source.placed = placement_of(made, model->surface);
+    model->stem_source.radius = def.capsule_radius;
     model->ms_chain = timer.ms();
     build_body(*model, def);
     model->ms_total = total.ms();

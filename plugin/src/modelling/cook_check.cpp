@@ -1,8 +1,10 @@
 // Checks of a model: whatever it was made of, plants that are made of it index within its arrays and divide by
 // nothing that is zero.
 #include <cmath>
+#include <cstdlib>
 
 #include "cage/tet_geometry.hpp"
+#include "core/convert.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "mechanics/tet_element.hpp"
@@ -148,6 +150,38 @@ void check_chain(const Model& model) {
     need(is_in(chain.height, 0, LARGEST_COORDINATE), "the chain has no height");
 }
 
+// Returns whether a part is named by the number of a stem, as surface_from_stems() names it.
+bool is_named_by_stem(const std::string& name, size_t count) {
+    constexpr size_t BEFORE = 5;  // length of "stem_"
+    if (name.size() <= BEFORE) return false;
+    const long number = std::strtol(name.c_str() + BEFORE, nullptr, 10);
+    return number >= 0 && size_t(number) < count && name == "stem_" + std::to_string(number);
+}
+
+void check_stems(const Model& model) {
+    const StemSource& source = model.stem_source;
+    const size_t count = source.stems.size();
+    need(source.sections.empty() || source.sections.size() == count, "some stems have sections");
+    need(is_in(source.radius, 0, LARGEST_COORDINATE) && is_positive(source.placed.scale) &&
+             is_place(source.placed.shift) && source.placed.turn.isUnitary(1e-6),
+         "its stems stand nowhere");
+    for (size_t i = 0; i < count; i++) {
+        const frond_stem& stem = source.stems[i];
+        const Vec3 begin = to_vec(stem.begin), end = to_vec(stem.end);
+        need(stem.parent >= -1 && stem.parent < int(i), "a stem comes before its parent");
+        need(is_place(begin) && is_place(end) && begin != end && is_positive(stem.radius_begin) &&
+                 is_positive(stem.radius_end),
+             "a stem has a number out of range");
+    }
+    try {
+        if (!source.sections.empty()) check_stem_sections(source.sections.data(), int(count));
+    } catch (const Error& error) {
+        throw Fault{error.what()};
+    }
+    for (const Part& part : model.surface.parts)
+        need(count == 0 || is_named_by_stem(part.name, count), "a part is of no stem");
+}
+
 void check_embedding(const Embedding& embedding, size_t points, size_t tets) {
     need(embedding.tet.size() == points && embedding.weights.size() == points, "something is not in the cage");
     need_indices(embedding.tet, tets, "something is in no tet");
@@ -220,6 +254,7 @@ std::string find_fault(const Model& model) {
         check_surface(model);
         check_topology(model);
         check_chain(model);
+        check_stems(model);
         check_cage(model);
         check_rest_shapes(model);
         return {};

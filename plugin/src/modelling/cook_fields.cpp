@@ -79,14 +79,36 @@ static void visit(Archive& a, CageReport& report) {
     a(min_dihedral, max_dihedral, min_volume, volume, contained, attachment_error);
 }
 
+static void visit(Archive& a, frond_vec3& v) {
+    auto& [x, y, z] = v;
+    a(x, y, z);
+}
+
+static void visit(Archive& a, frond_stem& stem) {
+    auto& [parent, begin, end, radius_begin, radius_end] = stem;
+    a(parent, begin, end, radius_begin, radius_end);
+}
+
+static void visit(Archive& a, frond_stem_section& section) {
+    auto& [outline, width, thickness, thin, twist, hollow, young_begin, young_end] = section;
+    a.one_of(outline, FROND_OUTLINE_COUNT);
+    a(width, thickness, thin, twist, hollow, young_begin, young_end);
+}
+
+static void visit(Archive& a, StemSource& source) {
+    auto& [stems, sections, placed, radius] = source;
+    auto& [turn, scale, shift] = placed;
+    a(stems, sections, turn, scale, shift, radius);
+}
+
 // Capsules, parents of organs and the view of the chain follow from the chain; what it took to build the model is of no
 // use to one that is loaded.
 void visit(Archive& a, Model& model) {
-    auto& [surface, topology, organs, chain, chain_view, sections, exact_sections, chain_mass, organ_stiffer,
-           calibrated, stands_as_modelled, capsules, organ_parents, cage, has_own_tets, embedding, chain_embedding,
-           tet_density, tet_young, tet_poisson, root, rest_shapes, stiffening_factor, cage_report, ms_import, ms_cage,
-           ms_chain, ms_total] = model;
-    a(surface, topology, organs, chain, sections, exact_sections, chain_mass, organ_stiffer, calibrated,
+    auto& [surface, topology, organs, chain, chain_view, sections, exact_sections, stem_source, chain_mass,
+           organ_stiffer, calibrated, stands_as_modelled, capsules, organ_parents, cage, has_own_tets, embedding,
+           chain_embedding, tet_density, tet_young, tet_poisson, root, rest_shapes, stiffening_factor, cage_report,
+           ms_import, ms_cage, ms_chain, ms_total] = model;
+    a(surface, topology, organs, chain, sections, exact_sections, stem_source, chain_mass, organ_stiffer, calibrated,
       stands_as_modelled, cage, has_own_tets, embedding, chain_embedding, tet_density, tet_young, tet_poisson, root,
       *rest_shapes, stiffening_factor, cage_report);
 }

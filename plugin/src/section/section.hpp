@@ -92,6 +92,14 @@ struct StemPlacement {
     Vec3 image(const Vec3& p) const { return scale * (turn * p) + shift; }
 };
 
+// What a chain of stems was made of, kept so that it can be made anew with capsules of another length.
+struct StemSource {
+    std::vector<frond_stem> stems;             // as the caller gave them; empty: the chain is not made of stems
+    std::vector<frond_stem_section> sections;  // their own sections; empty: they have none
+    StemPlacement placed;
+    double radius = 0;  // as ChainOptions::radius [m]
+};
+
 // Makes the chain of a tree of stems, whose capsules lie on the stems' axes from end to end, and its sections. The
 // surface is that of surface_from_stems(), placed and with organs; its parts are named "stem_<index>". Stems of which
 // are_capsules is true are one capsule each, others two at least; empty: none is. `own`: their own sections, if any.

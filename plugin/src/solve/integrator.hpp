@@ -23,7 +23,9 @@ struct Stage {
     int iterations = 0;             // Newton iterations at most; 0: as the settings say
 };
 
-// Returns whether a stage is longer than the period of hanging parts.
+// Length beyond which a stage of rods is longer than the period of hanging parts [s].
+constexpr double LONG_STAGE = 0.04;
+// Returns whether a stage is so long.
 bool is_long_stage(const System& system, double step);
 // Returns the factor on the stiffness in stiffness-proportional damping [s]; `of_element` gets each element's own
 // unless all damp alike.

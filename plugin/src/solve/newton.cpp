@@ -380,8 +380,7 @@ void add_inertia(Workspace& w, double scale) {
 }
 
 bool is_long_stage(const System& system, double step) {
-    constexpr double LONG = 0.04;  // [s]
-    return system.row->moves_chain && step > LONG;
+    return system.row->moves_chain && step > LONG_STAGE;
 }
 
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report) {
