@@ -93,10 +93,10 @@ static void move_far(Surface& surface, std::mt19937&) {
 
 const std::vector<Variant>& variants() {
     static const std::vector<Variant> all = {
-        {"mirrored", mirror, 0.88, 0.85, 0.75},      {"turned", turn, 0.88, 0.85, 0.35},
-        {"far", move_far, 0.88, 0.85, 0.75},         {"turned_over", turn_some_over, 0.88, 0.85, 0.4},
-        {"drawn_twice", draw_twice, 0.9, 0.85, 0.8}, {"jittered", jitter, 0.88, 0.85, 0.5},
-        {"torn_apart", tear_apart, 0.88, 0.85, 0.4}, {"five_percent_lost", lose_some, 0.88, 0.82, 0.25},
+        {"mirrored", mirror, 0.88, 0.85, 0.85},       {"turned", turn, 0.88, 0.85, 0.72},
+        {"far", move_far, 0.88, 0.85, 0.97},          {"turned_over", turn_some_over, 0.88, 0.85, 0.89},
+        {"drawn_twice", draw_twice, 0.9, 0.85, 0.97}, {"jittered", jitter, 0.88, 0.85, 0.91},
+        {"torn_apart", tear_apart, 0.88, 0.85, 0.91}, {"five_percent_lost", lose_some, 0.88, 0.82, 0.65},
     };
     return all;
 }

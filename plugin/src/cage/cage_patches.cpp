@@ -86,9 +86,9 @@ static bool runs_up(const Topology& topology, int t, int edge, const Edges& edge
     return topology.triangles[size_t(t)][k] < topology.triangles[size_t(t)][(k + 1) % 3];
 }
 
-// Returns the only other triangle at an edge if it has the same organ, or -1.
+// Returns the only other triangle at an edge if it has the same organ, or -1; one that lies on another is by itself.
 static int across(const Patches& patches, const std::vector<int>& triangle_organ, int t, int edge) {
-    if (edge < 0) return -1;
+    if (edge < 0 || patches.repeated[size_t(t)]) return -1;
     const int begin = patches.edges.first[size_t(edge)];
     if (patches.edges.first[size_t(edge) + 1] - begin != 2) return -1;
     const int a = patches.edges.triangle[size_t(begin)], b = patches.edges.triangle[size_t(begin) + 1];

@@ -46,7 +46,8 @@ struct Sums {
         first += other.first;
         second += other.second;
     }
-    bool closed() const { return perimeter > 0 && end.norm() < CLOSED * perimeter && area != 0; }
+    bool is_loop() const { return perimeter > 0 && end.norm() < CLOSED * perimeter; }
+    bool closed() const { return is_loop() && area != 0; }
 };
 
 // Finds the segment in which a plane across the axis cuts a triangle, directed by the triangle's normal.
@@ -196,14 +197,12 @@ void average(const std::array<PlaneCut, 3>& cuts, const CapsuleFrame& frame, Out
 }
 
 // Cuts triangles with the plane across a capsule and adds up the segments by component.
-std::map<int, Sums> cut_with_plane(const Surface& surface, const Topology& topology, const std::vector<int>& triangles,
+std::map<int, Sums> cut_with_plane(const Topology& topology, const std::vector<int>& triangles,
                                    const CapsuleFrame& frame, double share) {
     std::map<int, Sums> components;
     for (int t : triangles) {
-        const Triangle& triangle = surface.triangles[size_t(t)];
-        const std::array<Vec3, 3> corners = {surface.positions[size_t(triangle[0])],
-                                             surface.positions[size_t(triangle[1])],
-                                             surface.positions[size_t(triangle[2])]};
+        std::array<Vec3, 3> corners;  // welded, so that outlines close where a soup's triangles only nearly meet
+        for (size_t k = 0; k < 3; k++) corners[k] = topology.points[size_t(topology.triangles[size_t(t)][k])];
         Vector2d p, q;
         if (cut_triangle(corners, topology.turned[size_t(t)] != 0, frame, share * frame.length, p, q))
             components[topology.triangle_component[size_t(t)]].add(p, q);
@@ -211,16 +210,16 @@ std::map<int, Sums> cut_with_plane(const Surface& surface, const Topology& topol
     return components;
 }
 
-Outline cut_capsule(const Surface& surface, const Topology& topology, const std::vector<int>& triangles,
-                    const CapsuleFrame& frame, bool sheet, bool foot, bool tip) {
+Outline cut_capsule(const Topology& topology, const std::vector<int>& triangles, const CapsuleFrame& frame, bool sheet,
+                    bool foot, bool tip) {
     std::array<PlaneCut, 3> cuts;
     double area = 0, perimeter = 0;
     bool doubled = true;
     for (size_t plane = 0; plane < cuts.size(); plane++) {
-        const std::map<int, Sums> components = cut_with_plane(surface, topology, triangles, frame, PLANES[plane]);
+        const std::map<int, Sums> components = cut_with_plane(topology, triangles, frame, PLANES[plane]);
         Sums all;
         for (const auto& [component, sums] : components) all.add(sums);
-        doubled = doubled && all.closed();
+        doubled = doubled && all.is_loop();  // two faces in one place enclose nothing
         area += std::abs(all.area);
         perimeter += all.perimeter;
         cuts[plane] = sheet ? sheet_outline(all) : main_outline(components, all.perimeter);
@@ -252,7 +251,7 @@ std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topolo
         if (parent < 0 || triangles[i].empty()) continue;
         const bool foot = chain.nodes[size_t(parent)].parent < 0;
         const bool sheet = is_sheet(organs[size_t(std::max(chain.nodes[i].organ, 0))]);
-        outlines[i] = cut_capsule(surface, topology, triangles[i], frames[i], sheet, foot, is_tip[i]);
+        outlines[i] = cut_capsule(topology, triangles[i], frames[i], sheet, foot, is_tip[i]);
     }
     return outlines;
 }
@@ -270,8 +269,7 @@ std::vector<RibCut> cut_ribs(const Surface& surface, const Topology& topology, c
         double weight = 0;
         for (size_t plane = 0; plane < PLANES.size() && !triangles[i].empty(); plane++) {
             Sums all;
-            for (const auto& [component, sums] :
-                 cut_with_plane(surface, topology, triangles[i], frames[i], PLANES[plane]))
+            for (const auto& [component, sums] : cut_with_plane(topology, triangles[i], frames[i], PLANES[plane]))
                 if (sums.closed()) all.add(sums);
             if (!(std::abs(all.area) > 0)) continue;
             weight += WEIGHTS[plane];
