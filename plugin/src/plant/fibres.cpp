@@ -282,13 +282,22 @@ static double energy_of(const std::vector<Row>& rows, const VecX& x) {
     return energy;
 }
 
+// Returns whether pins moved in the step: their work reaches a blade through its fibres.
+static bool has_moved_pins(const Plant& plant) {
+    const Motion& motion = plant.state.motion;
+    const int count = int(motion.pinned.size());
+    int i = next_pinned(motion, 0);
+    while (i < count && point(motion.x, i) == point(plant.step.x_good, i)) i = next_pinned(motion, i + 1);
+    return i < count;
+}
+
 // Takes pulls back as far as they give the plant more energy than its fibres had when the step began, or than lifts it
 // by its size: what has turned far, they would crumple.
 static void keep_energy(Plant& plant, const std::vector<Row>& rows, const VecX& x_free, const VecX& v_free) {
     constexpr double LEAST = 0.01;  // share of the pulls [-]
     constexpr double LIFT = 0.01;   // error over the energy that lifts the plant by its size [-]
     Motion& motion = plant.state.motion;
-    if (rows.empty() || are_same(motion.x, x_free)) return;
+    if (rows.empty() || are_same(motion.x, x_free) || has_moved_pins(plant)) return;
     const auto energy = [&](const VecX& x, const VecX& v) {
         return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x) +
                kinetic_energy(*plant.system, x, v);
