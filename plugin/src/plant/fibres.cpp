@@ -12,9 +12,7 @@
 
 #include "cage/tet_geometry.hpp"
 #include "core/timer.hpp"
-#include "plant/guard.hpp"
 #include "plant/plant.hpp"
-#include "solve/integrator.hpp"
 #include "solve/node_compliance.hpp"
 #include "solve/one_sided.hpp"
 
@@ -237,13 +235,11 @@ bool are_slack(Plant& plant) {
 // Corrects positions first, in rounds, since pulls turn the fibres, which is of second order in the displacement.
 // Velocities are corrected separately: where a fibre becomes taut, bdf2 would have it rebound, and faster in the next
 // steps.
-static std::vector<Row> pull_back(Plant& plant, double h, VecX& x_free, VecX& v_free) {
+static void pull_back(Plant& plant, double h) {
     update_chain(plant);
     if (plant.state.is_entangled || !plant.state.fibre_give.empty()) let_give(plant, h);
     const std::vector<Row> rows = find_rows(plant);
-    if (rows.empty()) return rows;
-    x_free = plant.state.motion.x;
-    v_free = plant.state.motion.v;
+    if (rows.empty()) return;
     const Eigen::Index count = Eigen::Index(rows.size());
     const bool was_shaken = plant.state.motion.history.shaken;
     const double reach = reach_of(*plant.step.workspace);
@@ -253,13 +249,13 @@ static std::vector<Row> pull_back(Plant& plant, double h, VecX& x_free, VecX& v_
     Eigen::MatrixXd W;
     for (int round = 0; round < ROUNDS; round++) {
         W = couple(plant, stretches);
-        if (W.size() == 0) return rows;
+        if (W.size() == 0) return;
         const VecX known = pulls;
         VecX wanted = W * known;
         for (Eigen::Index i = 0; i < count; i++) wanted[i] += stretches[size_t(i)].over / reach;
         Eigen::MatrixXd soft = W;
         soft.diagonal() += softness / reach;
-        if (!solve_one_sided(soft, wanted, pulls) || !velocity_by(plant, stretches, pulls - known, dv)) return rows;
+        if (!solve_one_sided(soft, wanted, pulls) || !velocity_by(plant, stretches, pulls - known, dv)) return;
         add_correction(*plant.step.workspace, dv, plant.state.motion);
         stretches = stretches_of(rows, plant.state.motion.x);
         double wrong = 0;
@@ -272,68 +268,13 @@ static std::vector<Row> pull_back(Plant& plant, double h, VecX& x_free, VecX& v_
     plant.state.fibre_force = spread(plant, stretches, pulls) / reach;
     stop_lengthening(plant, stretches, W, pulls);
     go_on_from_here(plant.state.motion, was_shaken);
-    return rows;
-}
-
-// Returns the energy of stretched fibres [J].
-static double energy_of(const std::vector<Row>& rows, const VecX& x) {
-    double energy = 0;
-    for (const Row& row : rows) energy += 0.5 * row.stiffness * squared(std::max(0.0, stretch_of(row, x).over));
-    return energy;
-}
-
-// Returns whether pins moved in the step: their work reaches a blade through its fibres.
-static bool has_moved_pins(const Plant& plant) {
-    const Motion& motion = plant.state.motion;
-    const int count = int(motion.pinned.size());
-    int i = next_pinned(motion, 0);
-    while (i < count && point(motion.x, i) == point(plant.step.x_good, i)) i = next_pinned(motion, i + 1);
-    return i < count;
-}
-
-// Takes pulls back as far as they give the plant more energy than its fibres had when the step began, or than lifts it
-// by its size: what has turned far, they would crumple.
-static void keep_energy(Plant& plant, const std::vector<Row>& rows, const VecX& x_free, const VecX& v_free) {
-    constexpr double LEAST = 0.01;  // share of the pulls [-]
-    constexpr double LIFT = 0.01;   // error over the energy that lifts the plant by its size [-]
-    Motion& motion = plant.state.motion;
-    if (rows.empty() || are_same(motion.x, x_free) || has_moved_pins(plant)) return;
-    const auto energy = [&](const VecX& x, const VecX& v) {
-        return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x) +
-               kinetic_energy(*plant.system, x, v);
-    };
-    const double lift = lifting_energy(plant),
-                 most = energy(x_free, v_free) + std::min(energy_of(rows, plant.step.x_good), lift) + LIFT * lift;
-    const VecX by_x = motion.x - x_free, by_v = motion.v - v_free;
-    for (double share = 0.5; energy(motion.x, motion.v) > most; share /= 2) {
-        if (share < LEAST) share = 0;
-        motion.x = x_free + share * by_x;
-        motion.v = v_free + share * by_v;
-        plant.state.fibre_force *= 0.5;
-        go_on_from_here(motion, motion.history.shaken);
-        if (share == 0) break;
-    }
-}
-
-static bool may_pull(Plant& plant) {
-    plant.state.fibre_force.resize(0);
-    return plant.step.has_fibres && plant.fibres && plant.report.ok;
 }
 
 void hold_lengths(Plant& plant, double h) {
-    if (!may_pull(plant)) return;
+    plant.state.fibre_force.resize(0);
+    if (!plant.step.has_fibres || !plant.fibres || !plant.report.ok) return;
     const Timer timer;
-    VecX x_free, v_free;
-    pull_back(plant, h, x_free, v_free);
-    plant.ms_fibres += timer.ms();
-    plant.report.ms_solve += timer.ms();
-}
-
-void hold_lengths_of_step(Plant& plant, double h) {
-    if (!may_pull(plant)) return;
-    const Timer timer;
-    VecX x_free, v_free;
-    keep_energy(plant, pull_back(plant, h, x_free, v_free), x_free, v_free);
+    pull_back(plant, h);
     plant.ms_fibres += timer.ms();
     plant.report.ms_solve += timer.ms();
 }

@@ -30,7 +30,5 @@ bool are_slack(Plant& plant);
 // Ends a solve over h [s], or a part of a step: pulls back what it stretched; does nothing if all fibres are slack. A
 // step in parts needs it after each: what all of them stretched is too much for the impulses of the last.
 void hold_lengths(Plant& plant, double h);
-// Does so at the end of a step, as far as it gives the plant no more energy than its fibres had.
-void hold_lengths_of_step(Plant& plant, double h);
 
 }  // namespace frond
