@@ -21,7 +21,7 @@ static struct {
     frond_plant plants[MOST_PLANTS];
     frond_rigid balls[MOST_BALLS], walker;
     frond_grab grab;
-    int plant_count, ball_count, model, failed;
+    int plant_count, ball_count, model, failed, threads;
     frond_mechanics mechanics;
     frond_integrator integrator;
     frond_effects effects;
@@ -50,6 +50,11 @@ EMSCRIPTEN_KEEPALIVE double garden_take_model(int which, const void* bytes, size
     frond_model_destroy(garden.models[which]);
     if (!check(frond_model_load_bytes(bytes, size, &garden.models[which]))) return -1;
     return check(frond_model_get_info(garden.models[which], &info)) ? info.ms_total : -1;
+}
+
+/* Sets the number of threads of the worlds that are opened next. */
+EMSCRIPTEN_KEEPALIVE void garden_set_threads(int count) {
+    garden.threads = count;
 }
 
 static void blow(void) {
@@ -97,6 +102,7 @@ EMSCRIPTEN_KEEPALIVE int garden_open(int scene, int mechanics, int integrator, u
                                      int plants) {
     frond_world_def def = frond_default_world_def();
     int i;
+    def.parallel_for = garden_threads(garden.threads);
     frond_world_destroy(garden.world);
     garden.plant_count = garden.ball_count = 0;
     garden.walker.id = garden.grab.id = 0;

@@ -11,6 +11,9 @@ const SCENES = [{ plants: 1, wind: 0, far: 3.6, high: 1.1 }, { plants: 1, wind: 
     { plants: 10, wind: 0, far: 5, high: 1.1 }, { plants: 100, wind: 6, far: 9, high: 1.4 }];
 const element = id => document.getElementById(id);
 
+// ?alone in the address: one thread although there could be more.
+const isolated = self.crossOriginIsolated && !location.search.includes("alone");
+
 let library, drawing, room;                    // room: memory of the library's for what it gives
 let view = { turn: 0.6, tilt: 0.25, far: 3.6, high: 1.1 };
 let held = null;                               // a pointer that pulls a plant: its distance along the axis of sight [m]
@@ -45,10 +48,12 @@ async function takeModel(which, file) {
 function surfaceOf(plant) {
     call("get_surface", plant, room);
     const [positions, normals, uvs, indices, vertices, triangles, colors] = words(room, 7);
-    const floats = (at, count) => at ? new Float32Array(library.HEAPF32.buffer, at, count) : null;
+    // Drawing takes no memory that threads share.
+    const floats = (at, count) => !at ? null : isolated ? library.HEAPF32.slice(at / 4, at / 4 + count)
+        : new Float32Array(library.HEAPF32.buffer, at, count);
     return { positions: floats(positions, 3 * vertices), normals: floats(normals, 3 * vertices), uvs: floats(uvs, 2 * vertices),
-        colors: colors ? new Uint8Array(library.HEAPU8.buffer, colors, 4 * vertices) : null,
-        indices: new Uint32Array(library.HEAPU32.buffer, indices, 3 * triangles) };
+        colors: colors ? library.HEAPU8.slice(colors, colors + 4 * vertices) : null,
+        indices: words(indices, 3 * triangles) };
 }
 
 async function readParts() {
@@ -225,8 +230,19 @@ function frame(now) {
     element("times").innerHTML = STAGES.map((name, i) => `<tr><td>${name}<td>${times[i].toFixed(2)} ms`).join("");
 }
 
+function loadScript(file) {
+    return new Promise((loaded, failed) => {
+        const script = Object.assign(document.createElement("script"), { src: file, onload: loaded, onerror: () => failed(new Error(file + " was not found")) });
+        document.head.append(script);
+    });
+}
+
+// With threads where the server isolates the page and the library for that is there.
 async function begin() {
+    await loadScript(isolated ? "threads/frond.js" : "frond.js");
     library = await makeFrond();
+    page.threads = isolated ? Math.min(navigator.hardwareConcurrency, 8) : 1;
+    call("set_threads", page.threads);
     room = library._malloc(256);
     drawing = new Drawing(element("view"));
     page.loaded = [];
