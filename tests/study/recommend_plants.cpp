@@ -6,20 +6,19 @@
 #include <cmath>
 #include <functional>
 
+#include "scenes/vector.hpp"
 #include "study/trial.hpp"
 
 using namespace frond::study;
+using frond::tools::dot;
+using frond::tools::length;
+using frond::tools::operator-;
+using frond::tools::operator+;
+using frond::tools::operator*;
 
 namespace recommend_plants_tests {
 
 using Path = std::vector<frond_vec3>;
-
-double norm(const frond_vec3& v) {
-    return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-}
-frond_vec3 difference(const frond_vec3& a, const frond_vec3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
 
 // A kind of plant, built with capsules of any length.
 struct Kind {
@@ -46,7 +45,7 @@ public:
 
     double reach = 0;  // way to the tip along the chain [m]
 
-    frond_vec3 displacement() const { return difference(states()[size_t(tip)].position, rest); }
+    frond_vec3 displacement() const { return states()[size_t(tip)].position - rest; }
     // Finds the shape at rest under a force on the tip: each step of a second damps all but slow motion away.
     std::vector<frond_chain_state> bend(const frond_vec3& force) {
         for (int i = 0; i < 25; i++) {
@@ -83,7 +82,7 @@ private:
         std::vector<double> ways(size_t(view.node_count), 0.0);
         for (int i = 0; i < view.node_count; i++)
             if (const int parent = view.parents[i]; parent >= 0)
-                ways[size_t(i)] = ways[size_t(parent)] + norm(difference(place(i), place(parent)));
+                ways[size_t(i)] = ways[size_t(parent)] + length(place(i) - place(parent));
         reach = *std::max_element(ways.begin(), ways.end());
         while (ways[size_t(tip)] < (1 - 1e-6) * reach) tip++;
         rest = place(tip);
@@ -126,14 +125,14 @@ frond_vec3 find_force(const ModelPtr& model, bool has_weight) {
     const frond_vec3 by_z = plant.displacement();
     const double angle = 0.5 * std::atan2(by_x.z + by_z.x, by_x.x - by_z.z);
     const double c = std::cos(angle), s = std::sin(angle);
-    const frond_vec3 both = {c * by_x.x + s * by_z.x, c * by_x.y + s * by_z.y, c * by_x.z + s * by_z.z};
-    const double force = SMALL * 1e-3 * plant.reach / norm(both);
+    const frond_vec3 both = c * by_x + s * by_z;
+    const double force = SMALL * 1e-3 * plant.reach / length(both);
     return {force * c, 0, force * s};
 }
 
 // Returns the period of the largest part of a long record, by a Fourier transform under Hann's window [s].
 double main_period(const Path& path, double dt) {
-    const double length = dt * double(path.size());
+    const double duration = dt * double(path.size());
     double best = 0, largest = 0;
     for (double turns = 2; turns < 40; turns += 0.02) {
         frond_vec3 cosine = {0, 0, 0}, sine = {0, 0, 0};
@@ -141,15 +140,15 @@ double main_period(const Path& path, double dt) {
             const double share = double(i) / double(path.size());
             const double window = 1 - std::cos(2 * M_PI * share), phase = 2 * M_PI * turns * share;
             const double c = window * std::cos(phase), s = window * std::sin(phase);
-            cosine = {cosine.x + c * path[i].x, cosine.y + c * path[i].y, cosine.z + c * path[i].z};
-            sine = {sine.x + s * path[i].x, sine.y + s * path[i].y, sine.z + s * path[i].z};
+            cosine = cosine + c * path[i];
+            sine = sine + s * path[i];
         }
-        const double part = norm(cosine) * norm(cosine) + norm(sine) * norm(sine);
+        const double part = dot(cosine, cosine) + dot(sine, sine);
         if (part <= largest) continue;
         largest = part;
         best = turns;
     }
-    return length / best;
+    return duration / best;
 }
 
 double find_period(const ModelPtr& model, bool has_weight, const frond_vec3& force) {
@@ -176,8 +175,8 @@ double measured_error(const Kind& kind, const frond_advice& advice, const frond_
     const Path exact = path_of(exact_rods(), kind.finest > 0 ? kind.finest : advice.capsule_height, finer);
     const Path path = path_of(advice.plant, advice.capsule_height, 1);
     double sum = 0;
-    for (size_t i = 1; i < path.size(); i++) sum += std::pow(norm(difference(path[i], exact[i])), 2);
-    return std::sqrt(sum / steps) / norm(exact.front());
+    for (size_t i = 1; i < path.size(); i++) sum += std::pow(length(path[i] - exact[i]), 2);
+    return std::sqrt(sum / steps) / length(exact.front());
 }
 
 void expect_kept(const Kind& kind, double first_height) {

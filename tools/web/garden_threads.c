@@ -4,9 +4,6 @@
 #ifdef __EMSCRIPTEN_PTHREADS__
 #include <pthread.h>
 #include <stdatomic.h>
-#include <stdio.h>
-
-#define MOST_THREADS 16
 
 static struct {
     pthread_mutex_t lock;
@@ -62,7 +59,7 @@ static void run(int count, frond_job_fn* job, void* data, void* unused) {
 }
 
 frond_parallel_for_fn* garden_threads(int count) {
-    for (; pool.count < count - 1 && pool.count < MOST_THREADS; pool.count++) {
+    for (; pool.count < count - 1; pool.count++) {
         pthread_t thread;
         if (pthread_create(&thread, NULL, work, NULL) != 0) break;
         pthread_detach(thread);

@@ -12,7 +12,7 @@ const SCENES = [{ plants: 1, wind: 0, far: 3.6, high: 1.1 }, { plants: 1, wind: 
 const element = id => document.getElementById(id);
 
 // ?alone in the address: one thread although there could be more.
-const isolated = self.crossOriginIsolated && !location.search.includes("alone");
+let threaded = self.crossOriginIsolated && !location.search.includes("alone");
 
 let library, drawing, room;                    // room: memory of the library's for what it gives
 let view = { turn: 0.6, tilt: 0.25, far: 3.6, high: 1.1 };
@@ -49,7 +49,7 @@ function surfaceOf(plant) {
     call("get_surface", plant, room);
     const [positions, normals, uvs, indices, vertices, triangles, colors] = words(room, 7);
     // Drawing takes no memory that threads share.
-    const floats = (at, count) => !at ? null : isolated ? library.HEAPF32.slice(at / 4, at / 4 + count)
+    const floats = (at, count) => !at ? null : threaded ? library.HEAPF32.slice(at / 4, at / 4 + count)
         : new Float32Array(library.HEAPF32.buffer, at, count);
     return { positions: floats(positions, 3 * vertices), normals: floats(normals, 3 * vertices), uvs: floats(uvs, 2 * vertices),
         colors: colors ? library.HEAPU8.slice(colors, colors + 4 * vertices) : null,
@@ -239,9 +239,10 @@ function loadScript(file) {
 
 // With threads where the server isolates the page and the library for that is there.
 async function begin() {
-    await loadScript(isolated ? "threads/frond.js" : "frond.js");
+    if (threaded) threaded = await loadScript("threads/frond.js").then(() => true, () => false);
+    if (!threaded) await loadScript("frond.js");
     library = await makeFrond();
-    page.threads = isolated ? Math.min(navigator.hardwareConcurrency, 8) : 1;
+    page.threads = threaded ? Math.min(navigator.hardwareConcurrency, 8) : 1;
     call("set_threads", page.threads);
     room = library._malloc(256);
     drawing = new Drawing(element("view"));

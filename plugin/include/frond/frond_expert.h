@@ -154,7 +154,7 @@ typedef struct frond_energy_ledger {
     double air;       /* of wind, and of the air's resistance, which takes energy */
     double pins;      /* of pinned nodes that the host moved */
     double bodies;    /* of bodies of the Bullet world in contact */
-    double bonds;     /* of bodies to which plants are bonded */
+    double bonds;     /* of bodies to which plants are bonded, and of bonds that come together again */
     double fragments; /* went off with what broke off */
     /* Changes by calls between steps: plants made, destroyed or put elsewhere, states that were set or restored, other
      * mechanics, effects or gravity. */

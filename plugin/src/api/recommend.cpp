@@ -48,13 +48,14 @@ struct Search {
     double frequency;  // of the main mode [Hz]
     std::vector<Choice> choices;
 
-    double cost(const Choice& choice, const Cost& cost, double steps) const {
+    // Returns CPU seconds per simulated second.
+    double cpu(const Choice& choice, const Cost& cost, double steps) const {
         return steps * frequency * (cost.of_step + cost.of_capsule * choice.capsules);
     }
     // Returns how many steps in a period a budget pays for.
-    double steps_for(const Choice& choice, const Cost& cost, double cpu) const {
+    double steps_for(const Choice& choice, const Cost& cost, double budget) const {
         constexpr double ROUNDED = 1 - 1e-12;
-        return std::min(MOST_STEPS, ROUNDED * cpu / this->cost(choice, cost, 1));
+        return std::min(MOST_STEPS, ROUNDED * budget / cpu(choice, cost, 1));
     }
     // Returns the error, no less than that of exact steps, so that shorter steps keep it too.
     double error(const Choice& choice, const Cost& cost, double steps) const {
@@ -99,7 +100,7 @@ frond_advice advise(const Search& search, const Choice& choice, const Cost& cost
     advice.capsule_height = choice.height;
     advice.time_step = 1 / (steps * search.frequency);
     advice.error = error;
-    advice.cpu = search.cost(choice, cost, steps);
+    advice.cpu = search.cpu(choice, cost, steps);
     return advice;
 }
 
@@ -146,7 +147,7 @@ frond_advice cheapest(const Search& search, double bound) {
             const double most = search.steps_for(choice, cost, best.cpu);
             const Found found = fewest_steps(search, choice, cost, bound, most);
             least = std::min(least, found.error);
-            if (found.steps > 0 && search.cost(choice, cost, found.steps) < best.cpu)
+            if (found.steps > 0 && search.cpu(choice, cost, found.steps) < best.cpu)
                 best = advise(search, choice, cost, found.steps, found.error);
         }
     }
@@ -164,7 +165,7 @@ frond_advice most_accurate(const Search& search, double budget) {
     for (size_t i = search.choices.size(); i-- > 0;)
         for (const Cost& cost : COSTS) {
             const Choice& choice = search.choices[i];
-            least = std::min(least, search.cost(choice, cost, LEAST_STEPS));
+            least = std::min(least, search.cpu(choice, cost, LEAST_STEPS));
             const double steps = search.steps_for(choice, cost, budget);
             if (steps < LEAST_STEPS || choice.least > best.error) continue;
             const double error = search.error(choice, cost, steps);

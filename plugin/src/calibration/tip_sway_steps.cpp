@@ -49,10 +49,9 @@ private:
 
     // bdf2.cpp's step_first().
     State first_of_bdf2(const State& at) {
-        constexpr double ROUGH = 0.5;
         const State end = sdirk2(at);
         const Sways way = end.x - at.x, off = way - 0.5 * h * (at.v + end.v);
-        const bool is_smooth = off.dot(sway.gram * off) <= ROUGH * ROUGH * way.dot(sway.gram * way);
+        const bool is_smooth = off.dot(sway.gram * off) <= ROUGH_START * ROUGH_START * way.dot(sway.gram * way);
         return is_smooth ? end : implicit_euler(at);
     }
 

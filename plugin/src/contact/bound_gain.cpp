@@ -1,12 +1,15 @@
 // In: rows whose impulses plants have taken, and the ways that these went. Out: impulses by which no movable body gains
-// more energy than its own took from the plants, and than parting from overlaps takes.
+// more energy than its own took from the plants, and than parting from overlaps and closing bonds takes.
 //
 // Between linear responses impulses give no energy. But a plant whose step was solved again, or held back, went another
 // way than its linear response, and a chain of links turns a small wrong impulse into a fast spin.
+#include "contact/bound_gain.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "contact/coupled_rows.hpp"
+#include "core/assert.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -42,6 +45,7 @@ double share_of_body(const std::vector<ContactRow>& rows, const std::vector<Vec3
         for (const size_t k : body)
             second -= 0.5 * on_body.dot(compliance_between(at, rows[k].contact_body) * impulses[k]);
         const Plant& plant = *rows[i].plants[0]->plant;
+        FROND_ASSERT(plant.step.push);
         const Touch& touch = rows[i].touch;
         const Vec3 velocity = way_of_touch(plant, rows[i].touches[0]) / h,
                    parting = touch.wanted + std::max(0.0, touch.bias_velocity) * touch.normal;

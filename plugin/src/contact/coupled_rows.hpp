@@ -7,10 +7,8 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
+// Returns whether both rows push one movable body.
 bool are_one_body(const ContactRow& a, const ContactRow& b);
-// Shortens impulses on movable bodies, each one's by a share, once the plants have completed a step of h [s]. Returns
-// whether it did.
-bool bound_gain(const std::vector<ContactRow>& rows, double h, std::vector<Vec3>& impulses);
 
 class CoupledRows {
 public:

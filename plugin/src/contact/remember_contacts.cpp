@@ -56,10 +56,10 @@ bool move_on(const PlacedIsland&, PlantContact& contact) {
     const Vec3 between = contact.between;
     contact = moved_on(contact);
     const Vec3 moved = contact.between - between;
-    // The search found no overlap, so depth begins at zero or below; if it grows too far unseen, the contact ends.
     // What a response lacked is of its own step.
     contact.lacking = contact.lacking_place = 0;
     contact.may_ask = true;
+    // The search found no overlap, so depth begins at zero or below; if it grows too far unseen, the contact ends.
     if (contact.missed++ == 0) contact.depth = std::min(contact.depth, 0.0);
     if (contact.missed > LONG || contact.depth > IN || contact.depth < -APART) return false;
     return (moved - moved.dot(contact.normal) * contact.normal).norm() <= DRIFTED;

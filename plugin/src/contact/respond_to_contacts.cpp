@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "contact/bound_gain.hpp"
 #include "contact/coupled_rows.hpp"
 #include "contact/keep_apart.hpp"
 #include "contact/part_plants.hpp"
@@ -114,7 +115,9 @@ double gain_by(const std::vector<Vec3>& impulses, const CoupledRows& coupled) {
 // instead. Returns whether it did.
 bool stop_asking(const ContactIsland& island, const CoupledRows& coupled, const std::vector<Vec3>& impulses, double h) {
     const auto asks = [](const PlantContact* contact) { return contact->lacking > 0; };
-    const auto parts = [](const Contact* contact) { return contact->may_part && contact->gap < 0; };
+    const auto parts = [](const Contact* contact) {
+        return contact->may_part && contact->gap < 0 && !contact->other->isKinematicObject();
+    };
     if (std::none_of(island.with_plants.begin(), island.with_plants.end(), asks) &&
         std::none_of(island.with_bodies.begin(), island.with_bodies.end(), parts))
         return false;
@@ -125,7 +128,8 @@ bool stop_asking(const ContactIsland& island, const CoupledRows& coupled, const 
         contact->lacking = 0;
         contact->may_ask = false;
     }
-    for (Contact* contact : island.with_bodies) contact->may_part &= contact->other->isKinematicObject();
+    for (Contact* contact : island.with_bodies)
+        if (parts(contact)) contact->may_part = false;
     return true;
 }
 

@@ -262,7 +262,6 @@ frond_plant_def def_of(const Plant& plant) {
 }
 
 void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
-    constexpr double NO_WAY = 1e-4;  // of pins, over the plant's size [-]
     if (which == plant.which) return;
     end_modal(plant);
     const bool by_modes = smoothly && sways_on_its_roots(plant);
@@ -274,7 +273,7 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (by_modes && plant.follow) keep_only_modes(plant);
     const VecX smooth = cage_places(plant), smooth_rate = cage_velocities(plant);
     const StoredEnergy held = stored_energy(plant);
-    const bool pins_moved = miss_of_pins(plant) > NO_WAY * double(plant.size);
+    const bool pins_moved = miss_of_pins(plant) > PINS_STAND * double(plant.size);
     // Plastic states carry over between mechanics of tets, and between those of the chain.
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
     const std::vector<double> plastic = keeps ? plastic_of(plant) : std::vector<double>();

@@ -57,10 +57,9 @@ static bool has_energy_from_nowhere(const Plant& plant, double h) {
 
 // Returns whether a spring that holds a pinned node was led anywhere in the step.
 static bool leads_springs(const Plant& plant) {
-    constexpr double FAR = 1e-4;  // over the plant's size [-]
     const auto is_led = [&](const Spring& spring) {
         const Vec3 way = spring.target - attachment_place(spring.attachment, plant.step.x_good);
-        return way.norm() > FAR * double(plant.size);
+        return way.norm() > PINS_STAND * double(plant.size);
     };
     return std::any_of(plant.input.pin_springs.begin(), plant.input.pin_springs.end(), is_led);
 }

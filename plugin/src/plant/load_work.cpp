@@ -146,8 +146,7 @@ void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, co
         const Vec3 acceleration = (point(plant.state.motion.v, i) - point(plant.step.v_good, i)) / h;
         const Vec3 reaction = mass[i] * acceleration - point(force, i) - damping * point(per_second, i);
         work.pins += reaction.dot(own);
-        work.error += 0.5 * (std::abs(point(change, i).dot(own)) + most * std::abs(point(per_second, i).dot(own)) +
-                             std::abs(mass[i] * acceleration.dot(own)));
+        work.error += 0.5 * (std::abs(point(change, i).dot(own)) + most * std::abs(point(per_second, i).dot(own)));
     }
 }
 

@@ -254,6 +254,7 @@ void go_part_of_way(Plant& plant, double share);
 // since the last step, else 0.
 double miss_of_pins(const Plant& plant);
 double way_of_pins(const Plant& plant);
+constexpr double PINS_STAND = 1e-4;  // way of pins over the plant's size up to which they count as still [-]
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Replaces the second half if the step was broken off: puts the plant back to where it was before the first one.
 void drop_step(Plant& plant);

@@ -10,9 +10,9 @@ namespace frond {
 // Returns whether displacement and velocities agree: after a sudden load on stiff parts sdirk2 ends at the right
 // positions, but with wrong velocities.
 static bool is_smooth(const Workspace& w, const StepInput& input) {
-    constexpr double ROUGH = 0.5;  // largest error, as a share of the displacement [-]
     const VecX way = w.x - input.motion.x;
-    return (way - 0.5 * input.h * (input.motion.v + w.v)).squaredNorm() <= ROUGH * ROUGH * way.squaredNorm();
+    return (way - 0.5 * input.h * (input.motion.v + w.v)).squaredNorm() <=
+           ROUGH_START * ROUGH_START * way.squaredNorm();
 }
 
 // Takes a first step by sdirk2 where possible: implicit Euler would take 1 % of the energy from a 1 Hz mode at 1/60 s,

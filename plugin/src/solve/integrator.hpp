@@ -36,6 +36,8 @@ struct Bdf2 {
     double back, step;
 };
 Bdf2 bdf2_after(double h_before, double h);
+// Largest error of bdf2's first step by sdirk2, over the displacement, up to which it is taken [-].
+constexpr double ROUGH_START = 0.5;
 
 // Solves a stage and leaves the solution in workspace.x and .v; held nodes keep the velocity of workspace.v_start.
 // Returns false if it cannot be solved.
