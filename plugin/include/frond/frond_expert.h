@@ -141,9 +141,10 @@ FROND_API frond_result frond_plant_get_section_forces(frond_plant plant, frond_s
 
 /* The energy of a world's plants, and all work done on them since accounting began, each [J]; negative: they gave it
  * away. A step's work is a force's value at its end times the displacement of what it acts on, as implicit Euler counts
- * it; that of bodies their impulses times their own mean velocities, so that what lies still gives none. `error` bounds
- * what that leaves open. Plants in FROND_DETAIL_MODAL do not count: their energy goes with `calls`.
- * Contacts among plants are part of `dissipated`, which no step should lower by more than `error` rises. */
+ * it; that of grabs what their springs lose; that of pins by the mean elastic force; that of bodies their impulses
+ * times their own mean velocities, so that what lies still gives none. `error` bounds what that leaves open. Plants in
+ * FROND_DETAIL_MODAL do not count: their energy goes with `calls`. Contacts among plants are part of `dissipated`,
+ * which no step should lower by more than `error` rises. */
 typedef struct frond_energy_ledger {
     /* Of all plants together; elastic and gravity over those of each plant as modelled, where it stands, gravity only
      * of plants on which it acts. */
@@ -161,7 +162,8 @@ typedef struct frond_energy_ledger {
     double calls;
     /* begin + all the above - now: damping, friction, plastic flow, and the errors of the solution. */
     double dissipated;
-    /* Estimated error of all work together: half the change of each force in a step, times displacement. */
+    /* Estimated error of all work together: half the change of drag and damping in a step, times displacement, and of
+     * elastic forces on pins how far they are halfway from their mean. */
     double error;
 } frond_energy_ledger;
 

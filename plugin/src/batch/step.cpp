@@ -55,7 +55,7 @@ struct BeginAnew {
         for (int i = 0; i < a.system->elements->node_count; ++i) {
             const Lanes3<S> x = load3<S>(a.x.data(), 3 * i),
                             v = step.pinned[size_t(i)] ? Lanes3<S>{} : load3<S>(a.v.data(), 3 * i);
-            step.begin(3 * i, v, x, x, v);
+            step.begin(3 * i, v, x + constant<S>(step.h) * v, x, v);
         }
     }
 };
@@ -286,13 +286,11 @@ unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<u
     a.held = system.loose;
     for (size_t i = 0; i < pinned.size(); ++i) a.held[i] |= pinned[i];
     const LookBack look_back = {a, pinned, h, h_before, method};
-    unsigned lost = 0;
-    if (looks_back) {
+    if (looks_back)
         run_in_lanes(a.lanes, look_back);
-        lost = system.row->batch->not_calm(elements, a.x, a.x_from, 1);
-    } else {
+    else
         run_in_lanes(a.lanes, BeginAnew{look_back});
-    }
+    unsigned lost = system.row->batch->not_calm(elements, a.x, a.x_from, 1);
 
     const bool turns = system.row->batch->rotary_inertia != nullptr;
     if (turns) system.row->batch->rotary_inertia(elements, a.x, a.inertia);

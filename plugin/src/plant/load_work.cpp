@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "mechanics/rotation.hpp"
+#include "plant/plant.hpp"
 #include "solve/drags.hpp"
 #include "solve/integrator.hpp"
 #include "solve/springs.hpp"
@@ -46,11 +47,9 @@ std::vector<Spring> grab_springs(const Plant& plant) {
 
 void add_grabs(const Plant& plant, LoadWork& work) {
     for (const Spring& spring : grab_springs(plant)) {
-        const Vec3 way = displacement(spring.attachment, plant);
-        const Vec3 force =
-            spring.stiffness * (spring.target - attachment_place(spring.attachment, plant.state.motion.x));
-        work.grabs += force.dot(way);
-        work.error += 0.5 * spring.stiffness * way.squaredNorm();
+        const Vec3 before = spring.target - attachment_place(spring.attachment, plant.step.x_good),
+                   after = spring.target - attachment_place(spring.attachment, plant.state.motion.x);
+        work.grabs += 0.5 * spring.stiffness * (before - after).dot(before + after);
     }
 }
 
@@ -123,11 +122,13 @@ Vec3 mean_way(const Plant& plant, const std::vector<uint8_t>& held, const VecX& 
     return sum / std::max(count, 1);
 }
 
-// The damping of elements that differ counts by its mean; half of the largest counts as error, since the step took it
-// from a stiffness that is not known here.
+// Elastic forces count by the trapezoidal rule, their deviation from it halfway as error. The damping of elements that
+// differ counts by its mean; half of the largest counts as error, since the step took it from a stiffness that is not
+// known here.
 void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, const VecX& way, LoadWork& work) {
-    const VecX elastic = elastic_force(plant, plant.state.motion.x),
-               change = elastic - elastic_force(plant, plant.step.x_good);
+    const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good;
+    const VecX elastic = elastic_force(plant, x), mean_elastic = 0.5 * (elastic + elastic_force(plant, x_good));
+    const VecX off_mean = elastic_force(plant, x_good + 0.5 * way) - mean_elastic;
     const VecX& mass = node_mass_of(*plant.system);
     std::vector<double> of_element;
     double damping = damping_of(*plant.system, plant.step.settings, of_element), most = damping;
@@ -144,9 +145,11 @@ void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, co
         const bool is_turn = plant.follow && i % 2 == 1;
         const Vec3 own = is_turn ? Vec3(point(way, i)) : Vec3(point(way, i) - mean);
         const Vec3 acceleration = (point(plant.state.motion.v, i) - point(plant.step.v_good, i)) / h;
-        const Vec3 reaction = mass[i] * acceleration - point(force, i) - damping * point(per_second, i);
+        const Vec3 elastic_change = point(elastic, i) - point(mean_elastic, i);
+        const Vec3 reaction =
+            mass[i] * acceleration - point(force, i) + elastic_change - damping * point(per_second, i);
         work.pins += reaction.dot(own);
-        work.error += 0.5 * (std::abs(point(change, i).dot(own)) + most * std::abs(point(per_second, i).dot(own)));
+        work.error += std::abs(point(off_mean, i).dot(own)) + 0.5 * most * std::abs(point(per_second, i).dot(own));
     }
 }
 

@@ -9,6 +9,7 @@
 #include "plant/fibres.hpp"
 #include "plant/follow.hpp"
 #include "plant/fragment.hpp"
+#include "plant/load_work.hpp"
 #include "plant/modal.hpp"
 #include "solve/solve.hpp"
 
@@ -142,6 +143,7 @@ struct PlantStep {
     Loads loads;                        // kept to reuse their memory
     VecX x_good, v_good;                // before the step; empty after a healthy batched one: in the history
     std::unique_ptr<ContactPush> push;  // null until contacts are known
+    std::unique_ptr<LoadWork> work;     // of an accepted step; null: nobody keeps account
     bool is_watched = false;            // near something that it may go through
     bool is_pressed = false;            // in contact with something that may move
     bool is_sound = true;               // the solution can be the next state

@@ -280,7 +280,9 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
         motion.history.valid = false;
         plant.trouble |= FROND_TROUBLE_REWOUND;
         if (is_stuck && !jump_with_pins(plant, STUCK_BEHIND)) start_from_modelled(plant);
-    } else {
+    }
+    if (plant.step.work) *plant.step.work = work_of_loads(plant, h);
+    if (plant.step.is_sound) {
         watch_recovery(plant, h);
 
         // Where a search gave up is no place in which the plant stays.

@@ -23,7 +23,7 @@ static bool step_first(Workspace& w, const StepInput& input, SolveReport& report
     if (!motion.history.shaken && is_calm(*w.system, motion.x, w.x_from) && step_sdirk2(w, input, report) &&
         is_calm(*w.system, motion.x, w.x) && is_smooth(w, input) && report.inverted == 0)
         return true;
-    return step_implicit_euler(w, input, report);
+    return step_euler_ahead(w, input, report);
 }
 
 Bdf2 bdf2_after(double h_before, double h) {
@@ -39,7 +39,7 @@ bool step_bdf2(Workspace& workspace, const StepInput& input, SolveReport& report
     // Forces are evaluated at the predicted positions, so the warped stiffness is off at second order only. Motion
     // outside the trust bound does not use the history either, but is damped.
     w.x_from = motion.x + input.h * w.v_start;
-    if (!is_calm(*w.system, motion.x, w.x_from)) return step_implicit_euler(workspace, input, report);
+    if (!is_calm(*w.system, motion.x, w.x_from)) return step_euler_ahead(w, input, report);
 
     const auto [back, step] = bdf2_after(motion.history.h, input.h);
     w.x_base = motion.x + back * (motion.x - motion.history.x_prev);

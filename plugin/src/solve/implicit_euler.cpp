@@ -10,4 +10,11 @@ bool step_implicit_euler(Workspace& workspace, const StepInput& input, SolveRepo
     return solve_stage(workspace, input, {input.motion.x, input.motion.v, input.h, input.motion.x}, report);
 }
 
+bool step_euler_ahead(Workspace& workspace, const StepInput& input, SolveReport& report) {
+    const Motion& motion = input.motion;
+    carry_held(workspace, input);
+    workspace.x_from = motion.x + input.h * motion.v;
+    return solve_stage(workspace, input, {motion.x, motion.v, input.h, workspace.x_from}, report);
+}
+
 }  // namespace frond

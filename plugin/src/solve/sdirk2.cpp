@@ -8,7 +8,7 @@
 namespace frond {
 
 bool step_sdirk2(Workspace& workspace, const StepInput& input, SolveReport& report) {
-    if (is_pushed(input)) return step_implicit_euler(workspace, input, report);
+    if (is_pushed(input)) return step_euler_ahead(workspace, input, report);
     Workspace& w = workspace;
     const VecX &x = input.motion.x, &v = w.v_base;
     const double g = 1 - std::sqrt(0.5), step = g * input.h;

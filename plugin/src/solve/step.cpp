@@ -90,7 +90,7 @@ bool take_step(Workspace& w, const StepInput& input, const Integrator& method, S
     w.x_from = x + input.h * w.v_start;
     if (is_calm(*w.system, x, w.x_from) && method.step(w, input, report) && is_calm(*w.system, x, w.x)) return true;
     keeps = false;
-    return step_implicit_euler(w, input, report);
+    return step_euler_ahead(w, input, report);
 }
 
 }  // namespace

@@ -80,6 +80,7 @@ void begin_work(World& world) {
         const double change = has_changed ? recount(world, *body, entry) : 0;
         if (is_modal || was_modal) world.ledger->sums.calls += change;
         entry.x = body->plant->state.motion.x;
+        body->plant->step.work = std::make_unique<LoadWork>();
     }
 }
 
@@ -99,7 +100,7 @@ void count_work(World& world) {
         if (!is_stepped(*body)) continue;
         const Plant& plant = *body->plant;
         Ledger::Entry& entry = world.ledger->plants[body->handle.id];
-        const LoadWork work = work_of_loads(plant, body->level.pending);
+        const LoadWork& work = *plant.step.work;
         sums.forces += work.forces;
         sums.grabs += work.grabs;
         sums.air += work.air;
