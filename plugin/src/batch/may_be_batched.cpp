@@ -2,6 +2,7 @@
 #include "batch/plants.hpp"
 #include "batch/step.hpp"
 #include "plant/guard.hpp"
+#include "plant/pins.hpp"
 
 namespace frond {
 
