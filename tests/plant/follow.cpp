@@ -5,7 +5,7 @@
 #include <random>
 
 #include "modelling/build.hpp"
-#include "plant/plant.hpp"
+#include "plant/pins.hpp"
 #include "support/model_def.hpp"
 
 using namespace frond;

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "plant/plant.hpp"
+#include "plant/pins.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"
 

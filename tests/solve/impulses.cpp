@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "support/coupling.hpp"
 #include "support/meshes.hpp"
 
 namespace frond::test {

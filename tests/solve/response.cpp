@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "solve/position_correction.hpp"
+#include "support/coupling.hpp"
 #include "support/meshes.hpp"
 
 namespace frond::test {

@@ -1,7 +1,6 @@
 // Call: the frame of every public function. Checks arguments; turns exceptions into a result and a text.
 #pragma once
 
-#include <cmath>
 #include <cstring>
 #include <new>
 
@@ -34,9 +33,6 @@ frond_result call(Body&& body) noexcept {
 template <class T>
 void check_pointer(const T* pointer, const char* name) {
     if (!pointer) fail(FROND_RESULT_BAD_ARGUMENT, "%s is null; pass a valid pointer", name);
-}
-inline void check_finite(double value, const char* name) {
-    if (!std::isfinite(value)) fail(FROND_RESULT_BAD_ARGUMENT, "%s is not finite; pass a number", name);
 }
 inline void check_range(double value, double low, double high, const char* name) {
     if (!(value >= low && value <= high))

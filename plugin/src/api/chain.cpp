@@ -2,7 +2,6 @@
 #include "api/call.hpp"
 #include "api/handles.hpp"
 #include "plant/chain_state.hpp"
-#include "world/fragments.hpp"
 
 using namespace frond;
 

@@ -4,6 +4,7 @@
 
 #include "api/call.hpp"
 #include "api/handles.hpp"
+#include "plant/pins.hpp"
 
 using namespace frond;
 

@@ -8,7 +8,6 @@
 #include "api/handles.hpp"
 #include "calibration/other_chain.hpp"
 #include "calibration/tip_sway.hpp"
-#include "core/elementary.hpp"
 
 using namespace frond;
 

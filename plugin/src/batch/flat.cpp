@@ -5,6 +5,7 @@
 #include <array>
 
 #include "batch/step.hpp"
+#include "core/lane_vectors.hpp"
 #include "core/lanes_of_plants.hpp"
 #include "plant/air_push.hpp"
 #include "plant/flat.hpp"

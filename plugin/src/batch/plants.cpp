@@ -4,12 +4,11 @@
 #include "batch/plants.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "batch/air.hpp"
 #include "core/assert.hpp"
 #include "core/elementary.hpp"
-#include "core/lanes.hpp"
+#include "core/lane_vectors.hpp"
 #include "core/lanes_of_plants.hpp"
 #include "core/timer.hpp"
 #include "mechanics/attachment_lanes.hpp"
@@ -245,79 +244,24 @@ void go_on_alone(Plant& plant, const Batch& step, int lane, frond_effects effect
     finish_solving(plant, h);
 }
 
-}  // namespace
-
 // Returns the lanes whose plants wait for those of others, a bit each.
-static unsigned find_waiting(Plant* const* plants, int count) {
+unsigned find_waiting(Plant* const* plants, int count) {
     unsigned waiting = 0;
     for (int lane = 0; lane < count; lane++) waiting |= unsigned(waits(*plants[lane])) << lane;
     return waiting;
 }
 
-// Predicts whether the step continues from the history, or starts anew and damped. After a batched step the history is
-// not compared here but in goes_on(), where the job has the plant's numbers at hand.
-static bool foresee_method(Plant& plant, double h) {
-    const History& history = plant.state.motion.history;
-    plant.step.looks_back = history.valid && (history.x_end.size() == 0 ||
-                                              history_holds(plant.state.motion, plant.input.settings.integrator, h));
-    return plant.step.looks_back || history.shaken || plant.state.is_touched;
-}
-
-// Returns whether the prediction holds and the pins are at rest; after a batched step they are.
-static bool goes_on(const Plant& plant, double h) {
-    const Motion& motion = plant.state.motion;
-    return history_holds(motion, plant.input.settings.integrator, h) == plant.step.looks_back &&
-           ((plant.step.looks_back && motion.history.x_end.size() == 0) || !is_carried(motion, motion.x, motion.v));
-}
-
-bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h) {
-    return !plant.state.modal && !plant.state.own_elements && !plant.step.workspace && !plant.input.has_user_force &&
-           plant.input.grabs.empty() && plant.state.fragments.empty() && plant.input.pin_springs.empty() &&
-           !plant.input.pins_changed && plant.state.recovers_for <= 0 && plant.input.max_substeps <= 1 &&
-           plant.state.fibre_give.empty() && h > 0 && h <= TRUSTED &&
-           frond::may_be_batched(*plant.system, settings_for(plant, plant.input.effects & surroundings.effects), h) &&
-           (!waits(plant) || can_be_taken_apart(*plant.system)) && foresee_method(plant, h);
-}
-
-bool go_alike(const Plant& a, const Plant& b) {
-    return a.system == b.system && a.input.effects == b.input.effects && a.size == b.size &&
-           a.step.looks_back == b.step.looks_back &&
-           (!a.step.looks_back || a.state.motion.history.h == b.state.motion.history.h) &&
-           are_alike(a.input.settings, b.input.settings) && a.state.motion.pinned == b.state.motion.pinned;
-}
-
-int most_in_batch() {
-    return lanes_for(MOST_LANES);
-}
-
-void solve_batch(Plant* const* given, int given_count, const Surroundings& surroundings, double h) {
-    std::array<Plant*, MOST_LANES> plants;
-    int count = 0;
-    for (int i = 0; i < given_count; i++) {
-        Plant& plant = *given[i];
-        if (goes_on(plant, h))
-            plants[size_t(count++)] = &plant;
-        else
-            solve_plant(plant, surroundings, h);
-    }
-    FROND_ASSERT(given_count <= MOST_LANES);
-    // A batch with half of its lanes empty is no faster than its plants one by one.
-    const int lanes = lanes_for(count);
-    if (count < lanes / 2 + 1) {
-        for (int i = 0; i < count; i++) solve_plant(*plants[size_t(i)], surroundings, h);
-        return;
-    }
+// Does solve_batch() for plants whose prediction holds, in that many lanes.
+void solve_in_lanes(Plant* const* plants, int count, int lanes, const Surroundings& surroundings, double h) {
     const std::shared_ptr<WorkspacePool> pool = plants[0]->seat.pool;
     const std::shared_ptr<PlantBatch> space = take_batch(*pool);
     Batch& step = space->step;
     const frond_effects effects = plants[0]->input.effects & surroundings.effects;
     const SolveSettings settings = settings_for(*plants[0], effects);
-    FROND_ASSERT(std::all_of(plants.begin(), plants.begin() + count,
-                             [&](const Plant* plant) { return go_alike(*plants[0], *plant); }));
     make_room(step, plants[0]->system, lanes);
     Timer timer;
-    gather_motions(step, plants.data(), count, surroundings, effects);
-    const unsigned bad_wind = gather_air(space->air, step, plants.data(), count, surroundings, effects, h);
+    gather_motions(step, plants, count, surroundings, effects);
+    const unsigned bad_wind = gather_air(space->air, step, plants, count, surroundings, effects, h);
     const double ms_air = timer.lap();
 
     const double h_before = plants[0]->step.looks_back ? plants[0]->state.motion.history.h : 0;
@@ -327,14 +271,14 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
     alone |= far_away;
     air_forces(step, space->forces);
     const unsigned may_yield = find_yielding(step, effects);
-    const unsigned going_on = find_taut(step, *plants[0], effects) | find_waiting(plants.data(), count);
+    const unsigned going_on = find_taut(step, *plants[0], effects) | find_waiting(plants, count);
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
     run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
-    take_factors(step, plants.data(), going_on & ~alone & ((1u << count) - 1));
+    take_factors(step, plants, going_on & ~alone & ((1u << count) - 1));
     const double ms_solve = timer.lap();
 
     for (int lane = 0; lane < count; lane++) {
-        Plant& plant = *plants[size_t(lane)];
+        Plant& plant = *plants[lane];
         const auto is_in = [&](unsigned bits) { return (bits >> lane & 1) != 0; };
         if (is_in(alone) || !take_step(plant, *space, lane, settings, is_in(off_course), is_in(going_on), h)) {
             solve_plant(plant, surroundings, h);
@@ -346,6 +290,27 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
         if (is_in(going_on)) go_on_alone(plant, step, lane, effects, h);
     }
     return_batch(*pool, space);
+}
+
+}  // namespace
+
+void solve_batch(Plant* const* given, int given_count, const Surroundings& surroundings, double h) {
+    FROND_ASSERT(given_count <= MOST_LANES);
+    std::array<Plant*, MOST_LANES> plants;
+    int count = 0;
+    for (int i = 0; i < given_count; i++) {
+        Plant& plant = *given[i];
+        if (goes_on(plant, h))
+            plants[size_t(count++)] = &plant;
+        else
+            solve_plant(plant, surroundings, h);
+    }
+    FROND_ASSERT(std::all_of(plants.begin(), plants.begin() + count,
+                             [&](const Plant* plant) { return go_alike(*plants[0], *plant); }));
+    // A batch with half of its lanes empty is no faster than its plants one by one.
+    const int lanes = lanes_for(count);
+    if (count >= lanes / 2 + 1) return solve_in_lanes(plants.data(), count, lanes, surroundings, h);
+    for (int i = 0; i < count; i++) solve_plant(*plants[size_t(i)], surroundings, h);
 }
 
 }  // namespace frond

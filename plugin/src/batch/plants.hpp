@@ -10,6 +10,8 @@ namespace frond {
 // Returns whether a step of h [s] needs only what every healthy step does, as far as that is known before it. Stores in
 // the plant which method it will use.
 bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h);
+// Returns whether the prediction of that method holds and the pins are at rest; after a batched step they are.
+bool goes_on(const Plant& plant, double h);
 // Returns whether two plants that may both be batched may share a batch, in steps of one length.
 bool go_alike(const Plant& a, const Plant& b);
 // Returns how many plants a batch holds on this processor.

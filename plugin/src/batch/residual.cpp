@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "batch/step.hpp"
-#include "core/lanes.hpp"
+#include "core/lane_vectors.hpp"
 
 namespace frond {
 

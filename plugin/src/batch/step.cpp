@@ -3,9 +3,8 @@
 #include "batch/step.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "core/lanes.hpp"
+#include "core/lane_vectors.hpp"
 #include "mechanics/attachment_lanes.hpp"
 #include "mechanics/batch.hpp"
 #include "solve/integrator.hpp"
@@ -71,7 +70,7 @@ template <class S>
 FROND_INLINE auto is_dragged(const Lanes3<S>& push, const Lanes33<S>& damping) {
     return dot(push, push) + dot(damping, damping) > 0.0;
 }
-// Does what hold() in newton.cpp does.
+// Does what hold() in stage_equations.cpp does.
 template <class S>
 FROND_INLINE void hold(Batch& a) {
     const BlockPattern& pattern = *a.A.pattern;

@@ -2,7 +2,6 @@
 // thickness. The volume that a closed patch encloses is cut at the cells exactly, by the divergence theorem along one
 // axis, and distributed over the tets of a cell. The sum over all tets is the plant's volume.
 #include <algorithm>
-#include <cmath>
 
 #include "cage/cage_parts.hpp"
 

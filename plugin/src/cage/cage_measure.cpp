@@ -1,6 +1,5 @@
 // Measures a cage: angles, volumes, and how well the surface is attached to it.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "cage/cage_parts.hpp"

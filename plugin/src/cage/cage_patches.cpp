@@ -4,7 +4,6 @@
 #include "cage/cage_patches.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace frond {
 

@@ -2,7 +2,6 @@
 // neighbours on the outside. A move is accepted only if all tets around keep a positive volume and good angles, and if
 // every vertex that was in them still is in one of them; else half of it is tried.
 #include <algorithm>
-#include <cmath>
 
 #include "cage/cage_parts.hpp"
 #include "core/elementary.hpp"

@@ -1,7 +1,5 @@
 #include "calibration/beams.hpp"
 
-#include <algorithm>
-
 namespace frond {
 namespace {
 

@@ -1,7 +1,6 @@
 // Calibration: organ materials -> constants of the cage's tets. A cage is fatter than the organ in it, and four-node
 // tets are too stiff in bending, by a factor of ten to a thousand; so the moduli of each organ's tets are scaled until
 // the organ in the cage, held where it grows out of another one, bends as the rod with its true section would.
-#include <cmath>
 
 #include "calibration/beams.hpp"
 #include "calibration/calibrate_together.hpp"

@@ -2,7 +2,6 @@
 // together: under equal loads elastic energy is inversely proportional to modulus, so the factor is the ratio of
 // energies, cage over rods, under the plant's weight along each of the three axes.
 #include <algorithm>
-#include <cmath>
 
 #include "calibration/calibrate_together.hpp"
 #include "calibration/chain_loads.hpp"

@@ -8,7 +8,6 @@
 #include "calibration/fit_sway.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "calibration/least_change.hpp"
 #include "calibration/static_stiffness.hpp"

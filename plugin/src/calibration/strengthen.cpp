@@ -2,14 +2,12 @@
 // rods, whose balance under weight is known without a search: if they would topple, the organs that give way most are
 // made as stiff as needed.
 #include <algorithm>
-#include <cmath>
 
 #include "calibration/calibration.hpp"
 #include "calibration/hidden_ribs.hpp"
 #include "calibration/strengthen.hpp"
 #include "calibration/sway.hpp"
 #include "calibration/toppling.hpp"
-#include "core/elementary.hpp"
 #include "mechanics/rod_elements.hpp"
 
 namespace frond {

@@ -1,6 +1,5 @@
 #include "calibration/sway_frequency.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "calibration/static_stiffness.hpp"

@@ -2,7 +2,6 @@
 // paired with nodes and boxes of edges in a spatial hash (Teschner et al. 2003, for nodes and tets); pairs are tested
 // exactly.
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "collide/overlap.hpp"

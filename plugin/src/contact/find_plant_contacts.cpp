@@ -8,6 +8,7 @@
 #include "contact/remember_contacts.hpp"
 #include "contact/strip_search.hpp"
 #include "core/timer.hpp"
+#include "plant/pins.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

@@ -3,6 +3,7 @@
 
 #include "contact/find_plant_contacts.hpp"
 #include "core/union_find.hpp"
+#include "plant/pins.hpp"
 #include "world/convert.hpp"
 #include "world/show.hpp"
 

@@ -7,7 +7,6 @@
 #include <LinearMath/btAabbUtil2.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "contact/piece.hpp"
 #include "world/convert.hpp"

@@ -1,8 +1,6 @@
 // In: attachments of a plant whose step is solved. Out: compliances between them, each found once.
 #include "contact/touched_plant.hpp"
 
-#include <algorithm>
-
 #include "core/assert.hpp"
 
 namespace frond {

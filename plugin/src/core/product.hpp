@@ -1,7 +1,7 @@
-// Products that are the same to the last bit for one plant and for a batch: sums in the order of lanes.hpp.
+// Products that are the same to the last bit for one plant and for a batch: sums in the order of lane_vectors.hpp.
 #pragma once
 
-#include "core/lanes.hpp"
+#include "core/lane_vectors.hpp"
 #include "core/types.hpp"
 
 namespace frond {

@@ -1,5 +1,4 @@
 // Checks glTF: required extensions must be supported, accessors must lie in their views and views in their buffers.
-#include "core/log.hpp"
 #include "importer/gltf.hpp"
 #include "importer/importer.hpp"
 

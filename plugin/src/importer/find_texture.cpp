@@ -3,7 +3,6 @@
 // files are full of paths from other machines.
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <iterator>
 #include <map>
 

@@ -1,7 +1,6 @@
 // Reads PLY, text and binary of either byte order. In: bytes. Out: a surface of one part. Does not use assimp, whose
 // PLY reader crashes, aborts or hangs on truncated files. Reads vertices with normals, colours and texture coordinates;
 // faces with any number of corners, texture coordinates per corner, triangle strips; skips other elements.
-#include "core/log.hpp"
 #include "importer/importer.hpp"
 #include "importer/ply_values.hpp"
 

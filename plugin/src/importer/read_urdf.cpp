@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/log.hpp"
 #include "importer/importer.hpp"
 #include "importer/urdf.hpp"
 

@@ -2,12 +2,10 @@
 // views plain ones, WebP textures plain textures. A document without any of these is not changed.
 #include <meshoptimizer.h>
 
-#include <cmath>
 #include <cstring>
 #include <map>
 
 #include "core/elementary.hpp"
-#include "core/log.hpp"
 #include "importer/gltf.hpp"
 #include "importer/importer.hpp"
 

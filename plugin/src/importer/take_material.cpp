@@ -8,7 +8,6 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
-#include <cmath>
 #include <initializer_list>
 
 #include "core/elementary.hpp"

@@ -7,7 +7,6 @@
 #include <map>
 #include <set>
 
-#include "core/decompose.hpp"
 #include "core/elementary.hpp"
 #include "core/log.hpp"
 #include "importer/importer.hpp"

@@ -1,6 +1,5 @@
 // Welds render vertices. In: corners. Out: the same triangles over fewer vertices. Some readers give a vertex per face
 // corner; equal ones are merged by a hash over their bits.
-#include <cmath>
 #include <cstring>
 
 #include "importer/importer.hpp"

@@ -1,6 +1,5 @@
 // Reads Gmsh files of versions 2.2 and 4.1, text and binary: tetrahedra of any order, of which the four corners are
 // kept; the names of physical volumes become regions. Follows the file format chapter of the Gmsh manual.
-#include <cmath>
 #include <map>
 #include <unordered_map>
 

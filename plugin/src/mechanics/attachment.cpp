@@ -95,6 +95,27 @@ Attachment tet_attachment(const TetPlace& place) {
     return attachment;
 }
 
+Attachment node_attachment(int node, const Vec3& arm) {
+    Attachment attachment;
+    attachment.turns = true;
+    attachment.count = 1;
+    attachment.node[0] = 2 * node;
+    attachment.weight[0] = 1;
+    attachment.arm[0] = arm;
+    return attachment;
+}
+
+Attachment centre_line_attachment(int begin, int end, const Vec3& axis, double along, const Vec3& across) {
+    const double s = along, w = s * s * (3 - 2 * s);
+    Attachment attachment;
+    attachment.turns = true;
+    attachment.count = 2;
+    attachment.node = {2 * begin, 2 * end};
+    attachment.weight = {1 - w, w};
+    attachment.arm = {Vec3(s * (1 - s) * (1 - s) * axis + (1 - w) * across), Vec3(s * s * (s - 1) * axis + w * across)};
+    return attachment;
+}
+
 bool is_sound(const Attachment& attachment, int node_count) {
     if (attachment.count < 1 || attachment.count > (attachment.turns ? 2 : Attachment::MOST)) return false;
     for (int k = 0; k < attachment.count; ++k) {

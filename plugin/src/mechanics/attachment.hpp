@@ -18,6 +18,10 @@ struct Attachment {
 };
 
 Attachment tet_attachment(const TetPlace& place);
+// A point that is rigid with a chain node, or beside the cubic centre line of the capsule between two, along their
+// axes, and turns with both, blended smoothly.
+Attachment node_attachment(int node, const Vec3& arm);
+Attachment centre_line_attachment(int begin, int end, const Vec3& axis, double along, const Vec3& across);
 bool is_sound(const Attachment& attachment, int node_count);
 // Derivative of the point by each node that it follows, positions or rotation vectors.
 struct AttachmentDerivative {

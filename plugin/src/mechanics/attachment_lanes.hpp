@@ -1,7 +1,7 @@
 // Attachments without rotating arms, for a batch of plants.
 #pragma once
 
-#include "core/lanes.hpp"
+#include "core/lane_vectors.hpp"
 #include "mechanics/attachment.hpp"
 
 namespace frond {

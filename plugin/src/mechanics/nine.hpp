@@ -1,7 +1,7 @@
 // Nine: a 3x3 block of one lane, by columns.
 #pragma once
 
-#include "core/lanes.hpp"
+#include "core/lane_vectors.hpp"
 
 namespace frond {
 

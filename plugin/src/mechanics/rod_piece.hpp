@@ -5,7 +5,7 @@
 // no trigonometric function, and that rotation's vector one arc tangent of a small number.
 #pragma once
 
-#include "core/lanes.hpp"
+#include "core/lane_vectors.hpp"
 
 namespace frond {
 

@@ -16,7 +16,6 @@
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "mechanics/polar.hpp"
-#include "mechanics/sections.hpp"
 #include "mechanics/tet_looks.hpp"
 
 namespace frond {

@@ -2,7 +2,7 @@
 // a plain number.
 #pragma once
 
-#include "core/lanes.hpp"
+#include "core/lane_vectors.hpp"
 #include "mechanics/tet_element.hpp"
 
 namespace frond {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "core/lane_functions.hpp"
+#include "core/lane_vectors.hpp"
 #include "plant/air.hpp"
 
 namespace frond {

@@ -3,8 +3,6 @@
 #include "core/assert.hpp"
 #include "core/elementary.hpp"
 
-#include <cmath>
-
 namespace frond {
 
 constexpr double SPEED = 4;      // [1/s]

@@ -1,5 +1,4 @@
 // Points that follow the cage: vertices of the surface, the chain and its capsules, and their attachments for forces.
-#include <algorithm>
 
 #include "plant/plant.hpp"
 #include "solve/system.hpp"

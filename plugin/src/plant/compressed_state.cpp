@@ -2,9 +2,8 @@
 //
 // Memory for steps is made anew from the model; positions are kept as differences from the modelled shape in single
 // precision, or not at all if there are none.
-#include "plant/plant.hpp"
-
 #include "core/assert.hpp"
+#include "plant/pins.hpp"
 
 namespace frond {
 

@@ -7,6 +7,7 @@
 #include "calibration/calibration.hpp"
 #include "calibration/sway_frequency.hpp"
 #include "core/assert.hpp"
+#include "plant/pins.hpp"
 #include "plant/touch.hpp"
 
 namespace frond {

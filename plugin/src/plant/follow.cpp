@@ -25,27 +25,13 @@ Place place_on(const Chain& chain, int node, const Vec3& p) {
 }
 
 Attachment rigid_attachment(const Chain& chain, int node, const Vec3& p) {
-    Attachment attachment;
-    attachment.turns = true;
-    attachment.count = 1;
-    attachment.node[0] = 2 * node;
-    attachment.weight[0] = 1;
-    attachment.arm[0] = p - chain.nodes[size_t(node)].position;
-    return attachment;
+    return node_attachment(node, p - chain.nodes[size_t(node)].position);
 }
 
 Attachment smooth_attachment(const Chain& chain, const Place& place, const Vec3& p) {
     const int b = place.node, a = chain.nodes[size_t(b)].parent;
-    const double s = place.along, w = s * s * (3 - 2 * s);
     const Vec3 begin = chain.nodes[size_t(a)].position, axis = chain.nodes[size_t(b)].position - begin;
-    const Vec3 across = p - begin - s * axis;
-    Attachment attachment;
-    attachment.turns = true;
-    attachment.count = 2;
-    attachment.node = {2 * a, 2 * b};
-    attachment.weight = {1 - w, w};
-    attachment.arm = {Vec3(s * (1 - s) * (1 - s) * axis + (1 - w) * across), Vec3(s * s * (s - 1) * axis + w * across)};
-    return attachment;
+    return centre_line_attachment(a, b, axis, place.along, p - begin - place.along * axis);
 }
 
 // Returns the organs of the tets around each cage node.

@@ -51,18 +51,4 @@ void go_part_of_way(Plant& plant, double share) {
     motion.history.valid = false;
 }
 
-double miss_of_pins(const Plant& plant) {
-    if (plant.input.pinned.empty()) return 0;
-    const VecX& places = cage_places(plant);
-    double farthest = 0;
-    for (size_t n = 0; n < plant.input.pinned.size(); ++n)
-        if (plant.input.pinned[n])
-            farthest = std::max(farthest, (point(plant.input.pin_target, int(n)) - point(places, int(n))).norm());
-    return farthest;
-}
-
-double way_of_pins(const Plant& plant) {
-    return plant.input.pins_changed ? miss_of_pins(plant) : 0;
-}
-
 }  // namespace frond

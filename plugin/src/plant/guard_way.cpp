@@ -2,7 +2,6 @@
 //
 // Every step is checked, but such nodes are rare: several nodes are first checked together, in the lanes of the vector
 // unit.
-#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.hpp"

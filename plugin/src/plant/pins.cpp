@@ -1,12 +1,13 @@
 // Pins: cage nodes held where they are put. If the mechanics move the cage, they are nodes of the mechanics. If it
 // follows the chain, three or more pinned nodes that are attached to one chain node hold that, position and rotation;
 // fewer are held by springs much stiffer than the plant.
+#include "plant/pins.hpp"
+
 #include <algorithm>
 #include <map>
 
 #include "core/assert.hpp"
 #include "mechanics/rotation.hpp"
-#include "plant/plant.hpp"
 
 namespace frond {
 
@@ -146,6 +147,20 @@ bool lead_pin_springs(Plant& plant) {
         plant.input.pins_changed = any = true;
     }
     return any;
+}
+
+double miss_of_pins(const Plant& plant) {
+    if (plant.input.pinned.empty()) return 0;
+    const VecX& places = cage_places(plant);
+    double farthest = 0;
+    for (size_t n = 0; n < plant.input.pinned.size(); ++n)
+        if (plant.input.pinned[n])
+            farthest = std::max(farthest, (point(plant.input.pin_target, int(n)) - point(places, int(n))).norm());
+    return farthest;
+}
+
+double way_of_pins(const Plant& plant) {
+    return plant.input.pins_changed ? miss_of_pins(plant) : 0;
 }
 
 }  // namespace frond

@@ -252,11 +252,6 @@ void take_back(Plant& plant, const FreeStep& step);
 // the first returns whether it would be no more strained than at either end.
 bool may_go_part_of_way(const Plant& plant, double share, double h);
 void go_part_of_way(Plant& plant, double share);
-// Returns how far the farthest of the pinned nodes is from where it is to be [m]; the second only if pins were changed
-// since the last step, else 0.
-double miss_of_pins(const Plant& plant);
-double way_of_pins(const Plant& plant);
-constexpr double PINS_STAND = 1e-4;  // way of pins over the plant's size up to which they count as still [-]
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Replaces the second half if the step was broken off: puts the plant back to where it was before the first one.
 void drop_step(Plant& plant);
@@ -321,22 +316,6 @@ VecX blend_offset(const Plant& plant, double ahead);
 Attachment vertex_attachment(const Plant& plant, int vertex);
 // Returns the attachment of a chain node, if the mechanics move tets.
 Attachment chain_attachment(const Plant& plant, int node);
-
-// Hold a cage node where it is, release it, or move its target (model frame).
-bool is_pinned(const Plant& plant, int node);
-void pin_node(Plant& plant, int node);
-void unpin_node(Plant& plant, int node);
-void move_pin(Plant& plant, int node, const Vec3& target);
-// Transfers the pins to the nodes of the mechanics.
-void apply_pins(Plant& plant);
-// Lets the springs of pins that were put far away pull only part of that way in the coming step. Returns whether there
-// are such.
-bool lead_pin_springs(Plant& plant);
-// Returns whether the held nodes of a chain are at their targets.
-bool is_where_held(const Motion& motion);
-// Returns whether held nodes are on their way from x to their targets, or have moved before: v is not zero. A foot that
-// starts or stops tears at a plant, however short the way.
-bool is_carried(const Motion& motion, const VecX& x, const VecX& v);
 
 // Potential energy of tissue and weight, relative to the modelled shape's, and kinetic energy [J]. The weight's is by
 // the gravity of the last step; none if there was none.

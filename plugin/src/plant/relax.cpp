@@ -6,7 +6,7 @@
 // does the same to velocities: (M + h^2 K) v = M v_given. What is strained too far for that goes part of the way to the
 // modelled shape.
 #include "plant/guard.hpp"
-#include "plant/plant.hpp"
+#include "plant/pins.hpp"
 
 namespace frond {
 

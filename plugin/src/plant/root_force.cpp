@@ -4,6 +4,7 @@
 #include "plant/root_force.hpp"
 
 #include "mechanics/rotation.hpp"
+#include "plant/pins.hpp"
 #include "solve/integrator.hpp"
 
 namespace frond {

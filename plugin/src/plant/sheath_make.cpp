@@ -59,12 +59,7 @@ int add_ring(Maker& maker, int chain_node, int capsule, const Ring& ring) {
     for (int edge = 0; edge <= strips; edge++) {
         const double across = (2.0 * edge / strips - 1) * ring.half_width;
         for (const double through : {-ring.half_thickness, ring.half_thickness}) {
-            Attachment attachment;
-            attachment.turns = true;
-            attachment.count = 1;
-            attachment.node[0] = 2 * chain_node;
-            attachment.weight[0] = 1;
-            attachment.arm[0] = across * ring.wide + through * ring.thin;
+            Attachment attachment = node_attachment(chain_node, across * ring.wide + through * ring.thin);
             maker.sheath.modelled.push_back(middle + attachment.arm[0]);
             maker.sheath.follow.attachments.push_back(attachment);
             maker.sheath.follow.nearest.push_back(chain_node);

@@ -51,23 +51,9 @@ Skin make_skin(const Model& model) {
 
 Attachment skin_attachment(const Skin& skin, const SkinVertex& vertex) {
     const int b = vertex.node, a = skin.parents[size_t(b)];
-    const Vec3& axis = skin.axes[size_t(b)];
-    const double s = vertex.along, w = s * s * (3 - 2 * s);
-    Attachment attachment;
-    attachment.turns = true;
-    if (s > 0 && s < 1) {
-        attachment.count = 2;
-        attachment.node = {2 * a, 2 * b};
-        attachment.weight = {1 - w, w};
-        attachment.arm = {Vec3(s * (1 - s) * (1 - s) * axis + (1 - w) * vertex.across),
-                          Vec3(s * s * (s - 1) * axis + w * vertex.across)};
-        return attachment;
-    }
-    attachment.count = 1;
-    attachment.node[0] = 2 * (s > 0 ? b : a);
-    attachment.weight[0] = 1;
-    attachment.arm[0] = vertex.across;
-    return attachment;
+    const double s = vertex.along;
+    if (!(s > 0 && s < 1)) return node_attachment(s > 0 ? b : a, vertex.across);
+    return centre_line_attachment(a, b, skin.axes[size_t(b)], s, vertex.across);
 }
 
 }  // namespace frond

@@ -1,7 +1,6 @@
 // Reading and setting a plant's state: energy, nodes, the force of a grab.
-#include "plant/plant.hpp"
-
 #include "core/assert.hpp"
+#include "plant/pins.hpp"
 
 namespace frond {
 

@@ -7,7 +7,7 @@
 #include "plant/chain_state.hpp"
 #include "plant/guard.hpp"
 #include "plant/load_work.hpp"
-#include "plant/plant.hpp"
+#include "plant/pins.hpp"
 #include "solve/integrator.hpp"
 
 namespace frond {

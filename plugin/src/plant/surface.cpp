@@ -7,7 +7,7 @@
 // M^T / 6; for quadratic tets it is taken at the node.
 #include <algorithm>
 
-#include "core/lanes.hpp"
+#include "core/lane_vectors.hpp"
 #include "core/timer.hpp"
 #include "mechanics/rotation.hpp"
 #include "plant/plant.hpp"

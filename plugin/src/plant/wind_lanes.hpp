@@ -2,9 +2,8 @@
 // field is applied after that.
 #pragma once
 
-#include <cmath>
-
 #include "core/lane_functions.hpp"
+#include "core/lane_vectors.hpp"
 #include "plant/wind.hpp"
 
 namespace frond {

@@ -2,10 +2,10 @@
 // links.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
 
 #include "core/assert.hpp"
+#include "core/union_find.hpp"
 #include "skeleton/bands.hpp"
 
 namespace frond {
@@ -13,26 +13,6 @@ namespace frond {
 namespace {
 
 constexpr double TOUCH = 1e-6;  // share of a band; points nearer to a level line lie on it
-
-struct Sets {
-    std::vector<int> parent;
-    int find(int i) {
-        while (parent[size_t(i)] != i) {
-            parent[size_t(i)] = parent[size_t(parent[size_t(i)])];
-            i = parent[size_t(i)];
-        }
-        return i;
-    }
-    // The smaller number becomes the root, so that the order of joining does not matter.
-    void join(int a, int b) {
-        a = find(a);
-        b = find(b);
-        if (a < b)
-            parent[size_t(b)] = a;
-        else
-            parent[size_t(a)] = b;
-    }
-};
 
 struct Span {
     int low, high;
@@ -110,9 +90,7 @@ void number_fragments(Cutter& cutter) {
 void join_fragments(Cutter& cutter) {
     const Topology& topology = cutter.topology;
     Bands& bands = cutter.bands;
-    Sets sets;
-    sets.parent.resize(size_t(bands.first.back()));
-    std::iota(sets.parent.begin(), sets.parent.end(), 0);
+    UnionFind sets(size_t(bands.first.back()));
     for (const SharedEdge& edge : cutter.edges) {
         if (cutter.group[size_t(edge.triangle_a)] != cutter.group[size_t(edge.triangle_b)]) continue;
         const Span span = cutter.span(edge.triangle_a, edge.u, edge.v);
@@ -185,6 +163,29 @@ void add_area(Piece& piece, const Vec3& a, const Vec3& b, const Vec3& c) {
     piece.square += area / 12 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
 }
 
+// Links a slab to the one in the next band along the level line between them, which runs between the corners on it of
+// a polygon.
+void touch_next_band(Cutter& cutter, int number, int next, const std::array<Corner, 8>& polygon, int count,
+                     double level) {
+    std::array<Vec3, 8> line;
+    int ends = 0;
+    for (int k = 0; k < count; k++)
+        if (polygon[size_t(k)].x == level) line[size_t(ends++)] = polygon[size_t(k)].place;
+    if (ends == 0) line[size_t(ends++)] = polygon[0].place;
+    const Vec3 &a = line[0], &b = line[size_t(ends) - 1];
+    cutter.touch(number, next, (a - b).norm(), 0.5 * (a + b) + cutter.bands.origin, true);
+}
+
+// Counts area of an organ for a slab, which gets the organ with the majority of its area (Boyer, Moore 1981).
+void vote(Piece& piece, double& votes, int organ, double area) {
+    if (piece.organ == organ) {
+        votes += area;
+    } else if ((votes -= area) <= 0) {
+        piece.organ = organ;
+        votes = std::abs(votes);
+    }
+}
+
 // Measures areas, moments, distances and organs of the slabs, and the level lines between them.
 void measure_pieces(Cutter& cutter) {
     const Topology& topology = cutter.topology;
@@ -205,43 +206,22 @@ void measure_pieces(Cutter& cutter) {
         for (int i = 0; i < count; i++) {
             const int fragment = bands.first[t] + i, band = bands.first_band[t] + i;
             const int number = bands.piece[size_t(fragment)];
+            const double low = i == 0 ? -INFINITY : band * bands.height;
+            const double high = i == count - 1 ? INFINITY : (band + 1) * bands.height;
+            const int n = clip(corners, low, high, polygon);
             Piece& piece = bands.pieces[size_t(number)];
             piece.component = topology.triangle_component[t];
             piece.band = band;
             piece.group = cutter.group[t];
             const double area_before = piece.area;
-            const double low = i == 0 ? -INFINITY : band * bands.height;
-            const double high = i == count - 1 ? INFINITY : (band + 1) * bands.height;
-            int n = 3;
-            if (count > 1)
-                n = clip(corners, low, high, polygon);
-            else
-                std::copy(corners.begin(), corners.end(), polygon.begin());
             for (int k = 2; k < n; k++)
                 add_area(piece, polygon[0].place, polygon[size_t(k) - 1].place, polygon[size_t(k)].place);
             for (int k = 0; k < n; k++) {
                 piece.near = std::min(piece.near, polygon[size_t(k)].x);
                 piece.far = std::max(piece.far, polygon[size_t(k)].x);
             }
-            // The organ with the majority of the area (Boyer, Moore 1981).
-            double& votes = majority[size_t(number)];
-            const double area = piece.area - area_before;
-            if (piece.organ == cutter.organ[t]) {
-                votes += area;
-            } else if ((votes -= area) <= 0) {
-                piece.organ = cutter.organ[t];
-                votes = std::abs(votes);
-            }
-            if (i == count - 1) continue;
-            // The level line to the next band runs between the polygon's corners on it.
-            std::array<Vec3, 8> line;
-            int ends = 0;
-            for (int k = 0; k < n; k++)
-                if (polygon[size_t(k)].x == high) line[size_t(ends++)] = polygon[size_t(k)].place;
-            const int next = bands.piece[size_t(fragment) + 1];
-            if (ends == 0) line[size_t(ends++)] = polygon[0].place;
-            const Vec3 &a = line[0], &b = line[size_t(ends) - 1];
-            cutter.touch(number, next, (a - b).norm(), 0.5 * (a + b) + bands.origin, true);
+            vote(piece, majority[size_t(number)], cutter.organ[t], piece.area - area_before);
+            if (i < count - 1) touch_next_band(cutter, number, bands.piece[size_t(fragment) + 1], polygon, n, high);
         }
     }
 }

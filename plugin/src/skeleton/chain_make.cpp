@@ -11,6 +11,7 @@
 #include "core/assert.hpp"
 #include "core/error.hpp"
 #include "skeleton/chain.hpp"
+#include "skeleton/chain_bind.hpp"
 #include "skeleton/chain_ribs.hpp"
 #include "skeleton/chain_tree.hpp"
 
@@ -70,12 +71,9 @@ struct Maker {
     const Bands& bands;
     const ChainTree& tree;
     Chain chain = {};
-    std::vector<int> node_of_piece = {};
-    std::vector<char> owns_node =
-        {};  // whether a node was made for the slab, else it joined the capsule that ends there
+    SlabNodes slabs = {};
     std::vector<Moments> moments = {};
     std::vector<char> is_foot = {};
-    int last_resort = -1;  // node at the end of the only capsule of a chain that had only feet
 
     // Returns the root at a place, a new one unless there is one already.
     int root_at(const Vec3& position, int organ) {
@@ -98,7 +96,7 @@ struct Maker {
 // Returns the node that a slab grows from: the end of its parent, or the parent's beginning if the link is nearer to
 // that.
 int node_below(const Maker& maker, const Shoot& shoot) {
-    const int node = maker.node_of_piece[size_t(shoot.parent)];
+    const int node = maker.slabs.node[size_t(shoot.parent)];
     const SlabLink& link = maker.tree.links[size_t(shoot.link)];
     const int before = maker.chain.nodes[size_t(node)].parent;
     if (link.level || before < 0) return node;
@@ -109,8 +107,8 @@ int node_below(const Maker& maker, const Shoot& shoot) {
 
 void make_nodes(Maker& maker) {
     const Bands& bands = maker.bands;
-    maker.node_of_piece.assign(bands.pieces.size(), -1);
-    maker.owns_node.assign(bands.pieces.size(), 0);
+    maker.slabs.node.assign(bands.pieces.size(), -1);
+    maker.slabs.owns.assign(bands.pieces.size(), 0);
     for (int number : maker.tree.order) {
         const Shoot& shoot = maker.tree.shoots[size_t(number)];
         const Piece& piece = bands.pieces[size_t(number)];
@@ -123,17 +121,17 @@ void make_nodes(Maker& maker) {
         if (shoot.dropped || step < (tip ? SHORT_TIP : SHORT_PIECE) * bands.height) {
             // The slab joins the capsule below; if nothing else continues from there, that capsule is extended to this
             // end.
-            maker.node_of_piece[size_t(number)] = below;
+            maker.slabs.node[size_t(number)] = below;
             maker.moments[size_t(below)].add(piece);
             if (!shoot.dropped && tip && same && !maker.is_foot[size_t(below)] &&
                 maker.tree.shoots[size_t(shoot.parent)].children == 1 &&
-                below == maker.node_of_piece[size_t(shoot.parent)])
+                below == maker.slabs.node[size_t(shoot.parent)])
                 maker.chain.nodes[size_t(below)].position = shoot.end;
             continue;
         }
         const int node = maker.add_node(shoot.end, below, piece.organ);
-        maker.node_of_piece[size_t(number)] = node;
-        maker.owns_node[size_t(number)] = 1;
+        maker.slabs.node[size_t(number)] = node;
+        maker.slabs.owns[size_t(number)] = 1;
         maker.moments[size_t(node)].add(piece);
     }
 }
@@ -148,8 +146,8 @@ void add_last_resort(Maker& maker) {
         if ((place - foot).squaredNorm() > (farthest - foot).squaredNorm()) farthest = place;
     const Moments all = maker.moments.front();
     const int organ = maker.chain.nodes.front().organ;
-    maker.last_resort = maker.add_node(farthest, 0, organ);
-    maker.moments[size_t(maker.last_resort)] = all;
+    maker.slabs.last_resort = maker.add_node(farthest, 0, organ);
+    maker.moments[size_t(maker.slabs.last_resort)] = all;
 }
 
 void fit_radii(Maker& maker, const std::vector<Organ>& organs, double given) {
@@ -179,84 +177,6 @@ void fit_radii(Maker& maker, const std::vector<Organ>& organs, double given) {
     }
 }
 
-// Returns the place on a capsule nearest to a point, 0 at its begin and 1 at its end.
-double nearest_along(const Chain& chain, int node, const Vec3& place) {
-    const int parent = chain.nodes[size_t(node)].parent;
-    if (parent < 0) return 1;
-    const Vec3 begin = chain.nodes[size_t(parent)].position, axis = chain.nodes[size_t(node)].position - begin;
-    const double square = axis.squaredNorm();
-    return square > 0 ? std::clamp((place - begin).dot(axis) / square, 0.0, 1.0) : 1;
-}
-
-// Returns where slabs begin, as shares of the way along their capsules. A slab that grows across a level line begins
-// with its capsule; others where they are nearest to its begin, because the capsule begins within what they grow from.
-// Slabs that joined a capsule are at one place of it, at its end if something else grows from them.
-std::vector<double> begins_of_slabs(const Maker& maker) {
-    std::vector<double> along(maker.bands.pieces.size(), 1.0);
-    for (int number : maker.tree.order) {
-        const Shoot& shoot = maker.tree.shoots[size_t(number)];
-        const Piece& piece = maker.bands.pieces[size_t(number)];
-        const bool own = maker.owns_node[size_t(number)];
-        if (shoot.parent < 0) {
-            along[size_t(number)] = own ? 0 : 1;
-            continue;
-        }
-        const SlabLink& link = maker.tree.links[size_t(shoot.link)];
-        const int node = maker.node_of_piece[size_t(number)];
-        const auto place = [&](const Vec3& p) { return nearest_along(maker.chain, node, p); };
-        double& begin = along[size_t(number)];
-        if (own)
-            begin = link.level ? 0 : place(shoot.down ? piece.far_end : piece.near_end);
-        else if (shoot.children > 0)
-            begin = 1;
-        else if (link.level)
-            begin = maker.owns_node[size_t(shoot.parent)] ? 1 : along[size_t(shoot.parent)];
-        else
-            begin = place(link.middle);
-    }
-    return along;
-}
-
-// Assigns a vertex to its own slab's capsule, and to the nearer end of that. `x` is its distance from the start of its
-// component [m].
-void bind_vertex(Maker& maker, const std::vector<double>& begins, size_t vertex, int number, double x) {
-    Chain& chain = maker.chain;
-    const Shoot& shoot = maker.tree.shoots[size_t(number)];
-    const Piece& piece = maker.bands.pieces[size_t(number)];
-    const int node = maker.node_of_piece[size_t(number)], parent = chain.nodes[size_t(node)].parent;
-    const bool own = maker.owns_node[size_t(number)];
-    const double way = piece.far - piece.near, share = way > 0 ? std::clamp((x - piece.near) / way, 0.0, 1.0) : 1;
-    const double begin = begins[size_t(number)], grown = shoot.down ? 1 - share : share;
-    chain.vertex_capsule[vertex] = node;
-    chain.vertex_along[vertex] = own ? begin + (1 - begin) * grown : begin;
-    const bool goes_on = shoot.parent < 0 || maker.node_of_piece[size_t(shoot.parent)] != node;
-    const bool nearer_to_parent = (x < 0.5 * (piece.near + piece.far)) != shoot.down;
-    chain.vertex_node[vertex] = goes_on && parent >= 0 && nearer_to_parent ? parent : node;
-    if (maker.last_resort < 0) return;
-    chain.vertex_capsule[vertex] = maker.last_resort;
-    chain.vertex_along[vertex] = nearest_along(chain, maker.last_resort, maker.shape.surface.positions[vertex]);
-}
-
-void bind_vertices(Maker& maker) {
-    const Surface& surface = maker.shape.surface;
-    const Topology& topology = maker.shape.topology;
-    const Bands& bands = maker.bands;
-    maker.chain.vertex_node.assign(surface.positions.size(), 0);
-    maker.chain.vertex_capsule.assign(surface.positions.size(), 0);
-    maker.chain.vertex_along.assign(surface.positions.size(), 0);
-    const std::vector<double> begins = begins_of_slabs(maker);
-    std::vector<char> bound(surface.positions.size(), 0);
-    for (size_t t = 0; t < surface.triangles.size(); t++)
-        for (size_t k = 0; k < 3; k++) {
-            const size_t vertex = size_t(surface.triangles[t][k]);
-            if (bound[vertex]) continue;
-            bound[vertex] = 1;
-            const double x =
-                bands.distance[size_t(topology.triangles[t][k])] - bands.entry[size_t(topology.triangle_component[t])];
-            bind_vertex(maker, begins, vertex, bands.piece_at(int(t), x), x);
-        }
-}
-
 bool parents_come_first(const Chain& chain) {
     for (size_t i = 0; i < chain.nodes.size(); i++)
         if (chain.nodes[i].parent < -1 || chain.nodes[i].parent >= int(i)) return false;
@@ -276,7 +196,7 @@ Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, dou
         if (capsules > most && loose != LOOSE.back()) continue;
         add_last_resort(maker);
         fit_radii(maker, organs, radius);
-        bind_vertices(maker);
+        bind_vertices(shape.surface, shape.topology, bands, tree, maker.slabs, maker.chain);
         join_ribs(shape.surface, organs, maker.chain);
         FROND_ASSERT(parents_come_first(maker.chain));
         FROND_ASSERT(maker.chain.vertex_capsule.size() == shape.surface.positions.size());

@@ -2,7 +2,6 @@
 #include "skeleton/organ_evidence.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/elementary.hpp"
 #include "skeleton/organ_clues.hpp"

@@ -8,7 +8,6 @@
 #include "skeleton/organ_heads.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "core/decompose.hpp"

@@ -1,8 +1,6 @@
 // In: a symmetric matrix of 3x3 blocks. Out: its factors L D L^T and solutions, by a tree if it is one, else by fronts.
 #include "solve/block_factor.hpp"
 
-#include <cmath>
-
 #include "solve/linear_solver.hpp"
 
 namespace frond {

@@ -3,8 +3,6 @@
 // so that the numbers are the same on every processor, alone and in lanes.
 #pragma once
 
-#include <algorithm>
-
 #include "core/lanes.hpp"
 #include "solve/fronts.hpp"
 

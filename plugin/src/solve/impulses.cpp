@@ -11,7 +11,6 @@
 
 #include "core/assert.hpp"
 #include "core/decompose.hpp"
-#include "core/union_find.hpp"
 
 namespace frond {
 
@@ -155,16 +154,6 @@ int solve_island(ImpulseSearch& search, const ImpulseLimits& limits, double unfe
 }
 
 }  // namespace
-
-CouplingTable coupling_table(const std::vector<std::vector<Coupling>>& rows) {
-    CouplingTable table;
-    table.row = [&rows](int i) -> const std::vector<Coupling>& { return rows[size_t(i)]; };
-    UnionFind sets(rows.size());
-    for (size_t i = 0; i < rows.size(); i++)
-        for (const Coupling& c : rows[i]) sets.join(int(i), c.other);
-    table.islands = sets.sets();
-    return table;
-}
 
 ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTable& coupling,
                             const ImpulseLimits& limits, std::vector<Vec3>& impulses, double unfelt) {

@@ -38,8 +38,6 @@ struct CouplingTable {
     std::function<const std::vector<Coupling>&(int touch)> row;  // the result lives as long as the table
     std::vector<std::vector<int>> islands;  // each contact is in one, and coupled to none of another
 };
-// Makes a table of known rows, which must outlive it.
-CouplingTable coupling_table(const std::vector<std::vector<Coupling>>& rows);
 
 struct ImpulseLimits {
     int iterations = 200;

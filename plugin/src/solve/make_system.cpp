@@ -1,7 +1,6 @@
 // In: a model and the kind of mass matrix. Out: elements, mass matrix and elimination order.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "core/assert.hpp"
 #include "core/error.hpp"

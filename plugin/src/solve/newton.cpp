@@ -10,49 +10,28 @@
 // and the positive one leads beyond the bound, a line search takes over.
 // What springs pull taut from afar swings as fast in any step: it takes the exact stiffness too, and a line search
 // takes over wherever the solve leads beyond the bound.
-//
-// D = mass_damping M + stiffness_damping K plus each element's own damping times its part of K, K being the positive
-// stiffness at the start of the step: it never adds energy and does not resist rotation as a whole.
 #include <algorithm>
 #include <cmath>
 
 #include "core/timer.hpp"
-#include "solve/drags.hpp"
-#include "solve/integrator.hpp"
-#include "solve/springs.hpp"
+#include "solve/stage_equations.hpp"
 
 namespace frond {
 
 namespace {
 
-struct Newton {
-    Workspace& w;
-    const StepInput& input;
-    const Stage& stage;
-    SolveReport& report;
-    const System& system;
-    const Mechanics& body;
-    double rayleigh = 0;        // workspace.damping_scale [s]
-    int iterations = 1;         // most Newton iterations
-    bool apart = false;         // elements differ in damping ratio: the damping is not a multiple of the stiffness
-    bool keep_damping = false;  // the damping matrix is needed besides the stiffness
-    bool is_long = false;       // the step is longer than the period of hanging parts, and has one solve
-    bool is_pulled = false;     // springs pull at rods from afar, and the step has one solve
-    bool exact = false;         // the first solve uses the exact stiffness, the damping still the positive one
-    bool skipped = false;       // the first solve was left to the line search
-    bool at_once = false;       // the mechanics assemble right-hand side and matrix of the only solve in one pass
-    int most_work = 0;          // limit of report.work; 0: none
+struct Newton : StageEquations {
+    int iterations = 1;      // most Newton iterations
+    bool is_long = false;    // the step is longer than the period of hanging parts, and has one solve
+    bool is_pulled = false;  // springs pull at rods from afar, and the step has one solve
+    bool skipped = false;    // the first solve was left to the line search
+    int most_work = 0;       // limit of report.work; 0: none
 };
 
 // Approximate cost of a factor, in evaluations of the forces.
 constexpr int WORK_OF_FACTOR = 4;
 bool is_spent(const Newton& n) {
     return n.most_work > 0 && n.report.work >= n.most_work;
-}
-
-// Sets w.x to the end of the stage with velocities v.
-void move(const Newton& n, const VecX& v) {
-    n.w.x = n.stage.x_base + n.stage.step * v;
 }
 
 // Keeps the strain that the solve linearized at `from` gave to what rotates, by velocities that lead there; or leaves
@@ -63,157 +42,9 @@ void retract(const Newton& n, const VecX& from, VecX& v) {
         if (n.iterations == 1) n.w.retract_from = from;
         return;
     }
-    move(n, v);
+    set_positions(n, v);
     n.body.retract(*n.w.elements, from, n.w.x, n.w.held, n.w.retracted);
     v += (1 / n.stage.step) * (n.w.retracted - n.w.x);
-}
-
-// Computes the residual without the terms of K: step * f + impulse - M (v - v_base) - step * a M v.
-void start_residual(const Newton& n, const VecX& v, VecX& rhs) {
-    const double step = n.stage.step;
-    rhs = n.w.external + n.w.elastic;
-    add_spring_force(n.input.loads.springs, n.w.x, rhs);
-    add_drag_force(n.input.loads.drags, n.w.x, v, rhs);
-    rhs *= step;
-    if (n.stage.impulse) rhs += *n.stage.impulse;
-    n.w.dv = n.stage.v_base - (1 + step * n.input.settings.mass_damping) * v;
-    multiply_mass(n.system, n.w.inertia, n.w.dv, n.w.momentum);
-    rhs += n.w.momentum;
-}
-
-// Returns the norm over nodes that are not held.
-double free_norm(const Newton& n, const VecX& rhs) {
-    double sum = 0;
-    for (int i = 0; i < n.system.elements->node_count; ++i)
-        if (!n.w.held[size_t(i)]) sum += point(rhs, i).squaredNorm();
-    return std::sqrt(sum);
-}
-
-// Returns the predicted positions if they are within the trust bound, else the start of the step.
-const VecX& linearized_from(const Newton& n) {
-    const VecX& start = n.input.motion.x;
-    return &n.stage.x_from == &start || is_calm(n.system, start, n.stage.x_from) ? n.stage.x_from : start;
-}
-
-// Computes force and stiffness at x_from, extrapolated to the end of the stage with the velocities known so far.
-void linearize_at_start(Newton& n) {
-    Workspace& w = n.w;
-    const auto assemble = [&](const VecX& x) {
-        w.elastic.setZero(x.size());
-        w.A.set_zero();
-        if (n.apart) w.damping.set_zero();
-        n.report.inverted =
-            n.apart
-                ? n.body.add_force_stiffness_and_damping(*n.w.elements, x, w.element_damping, w.elastic, w.A, w.damping)
-                : n.body.add_force_and_stiffness(*n.w.elements, x, Tangent::positive, w.elastic, w.A);
-        move(n, w.v);
-        w.dv = w.x - x;
-    };
-    const VecX& from = linearized_from(n);
-    if (n.at_once) {
-        w.elastic.setZero(from.size());
-        w.A.set_zero();
-        move(n, w.v);
-        w.dv = w.x - from;
-        n.report.inverted = n.body.add_ahead(
-            *w.elements, from, {w.dv.data(), w.v.data(), n.stage.step, n.apart ? 0 : n.rayleigh, w.element_damping},
-            w.elastic, w.A);
-        return start_residual(n, w.v, w.rhs);
-    }
-    assemble(from);
-    const bool is_multiple = !n.apart && !n.exact;  // the damping is a multiple of this stiffness
-    if (!n.apart && (n.exact || n.keep_damping)) w.damping = w.A;
-    if (n.exact) {
-        w.A.set_zero();
-        n.body.add_stiffness(*n.w.elements, from, Tangent::exact, 1, w.A);
-    }
-    if (is_multiple) w.dv += n.rayleigh * w.v;
-    w.A.multiply(w.dv, w.product);
-    start_residual(n, w.v, w.rhs);
-    w.rhs -= n.stage.step * w.product;
-    if (is_multiple) return;
-    w.damping.multiply(w.v, w.product);
-    w.rhs -= n.stage.step * n.rayleigh * w.product;
-}
-
-// Computes the residual at the end of the stage with velocities v and returns its norm; leaves elastic force and
-// positions in the workspace.
-double residual_at(Newton& n, const VecX& v, VecX& rhs) {
-    Workspace& w = n.w;
-    n.report.work++;
-    move(n, v);
-    w.elastic.setZero(v.size());
-    n.report.inverted = n.body.add_force(*n.w.elements, w.x, w.elastic);
-    start_residual(n, v, rhs);
-    if (n.keep_damping) {
-        w.damping.multiply(v, w.product);
-        rhs -= n.stage.step * n.rayleigh * w.product;
-    }
-    return free_norm(n, rhs);
-}
-
-// Returns the stage's potential, which is least at the solution: minus its gradient by v is the residual.
-double potential_at(const Newton& n, const VecX& v) {
-    Workspace& w = n.w;
-    const double step = n.stage.step, a = n.input.settings.mass_damping;
-    n.report.work++;
-    move(n, v);
-    double potential =
-        n.body.energy(*n.w.elements, w.x) + spring_energy(n.input.loads.springs, w.x) - step * w.external.dot(v);
-    w.dv = v - n.stage.v_base;
-    multiply_mass(n.system, w.inertia, w.dv, w.momentum);
-    potential += 0.5 * w.dv.dot(w.momentum);
-    multiply_mass(n.system, w.inertia, v, w.momentum);
-    potential += 0.5 * step * a * v.dot(w.momentum);
-    potential += step * drag_potential(n.input.loads.drags, w.x, v);
-    if (n.stage.impulse) potential -= n.stage.impulse->dot(v);
-    if (n.keep_damping) {
-        w.damping.multiply(v, w.product);
-        potential += 0.5 * step * n.rayleigh * v.dot(w.product);
-    }
-    return potential;
-}
-
-void add_mass(const Masses& masses, double scale, BlockMatrix& A) {
-    const auto add = [&](int slot) { A.block(slot).diagonal().array() += scale * masses.slot[size_t(slot)]; };
-    const BlockPattern& pattern = *A.pattern;
-    if (masses.lumped)
-        for (int i = 0; i < pattern.node_count; ++i) add(pattern.start[size_t(i)]);
-    else
-        for (int k = 0; k < pattern.block_count(); ++k) add(k);
-}
-
-// Forms A = (1 + step a) M + step^2 K + step b K_damping + springs + drags. `first`: K is the one at the start of the
-// step, of which the damping is a multiple unless elements differ in damping ratio.
-void form_matrix(Newton& n, bool first, Tangent tangent) {
-    BlockMatrix& A = n.w.A;
-    const double step = n.stage.step, mass = 1 + step * n.input.settings.mass_damping;
-    const bool alike = first && !n.apart && !n.exact;
-    const double scale = step * step + (alike ? step * n.rayleigh : 0);
-    if (!n.at_once)
-        for (double& value : A.values) value *= scale;
-    if (!n.at_once && !alike && n.keep_damping)
-        for (size_t k = 0; k < A.values.size(); ++k) A.values[k] += step * n.rayleigh * n.w.damping.values[k];
-    add_mass(n.system.masses, mass, A);
-    add_inertia(n.w, mass);
-    add_spring_stiffness(n.input.loads.springs, n.w.x, tangent, step * step, A);
-    add_drag_damping(n.input.loads.drags, n.w.x, step, A);
-}
-
-// Makes rows and columns of held nodes, whose velocities are known, the identity, so that the pattern stays.
-void hold(Newton& n) {
-    Workspace& w = n.w;
-    const BlockPattern& pattern = *w.A.pattern;
-    for (int j = 0; j < pattern.node_count; ++j)
-        for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
-            const int i = pattern.row[size_t(k)];
-            if (!w.held[size_t(i)] && !w.held[size_t(j)]) continue;
-            auto block = w.A.block(k);
-            block.setZero();
-            if (i == j) block.setIdentity();
-        }
-    for (int i = 0; i < pattern.node_count; ++i)
-        if (w.held[size_t(i)]) point(w.rhs, i).setZero();
 }
 
 // Solves for dv with the matrix in A and the right-hand side.
@@ -234,7 +65,7 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
         n.report.work += WORK_OF_FACTOR;
         n.w.rhs = rhs;
         n.w.A.set_zero();
-        move(n, n.w.v);
+        set_positions(n, n.w.v);
         n.body.add_stiffness(*n.w.elements, n.w.x, tangent, 1, n.w.A);
         form_matrix(n, false, tangent);
         hold(n);
@@ -304,7 +135,7 @@ double skip_first(Newton& n) {
 
 bool ends_calmly(Newton& n, double part) {
     n.w.v_trial = n.w.v + part * n.w.dv;
-    move(n, n.w.v_trial);
+    set_positions(n, n.w.v_trial);
     return is_calm(n.system, n.input.motion.x, n.w.x);
 }
 
@@ -374,11 +205,6 @@ bool iterate(Newton& n, double first) {
 
 }  // namespace
 
-void add_inertia(Workspace& w, double scale) {
-    for (size_t i = 0; i < w.inertia.size(); ++i)
-        if (!w.held[2 * i + 1]) w.A.block(w.A.pattern->start[2 * i + 1]) += scale * w.inertia[i];
-}
-
 bool is_long_stage(const System& system, double step) {
     return system.row->moves_chain && step > LONG_STAGE;
 }
@@ -386,7 +212,7 @@ bool is_long_stage(const System& system, double step) {
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report) {
     const System& system = *workspace.system;
     const SolveSettings& settings = input.settings;
-    Newton n = {workspace, input, stage, report, system, *system.row};
+    Newton n = {{workspace, input, stage, report, system, *system.row}};
     n.rayleigh = workspace.damping_scale;
     n.iterations = stage.iterations > 0 ? stage.iterations : settings.newton_iterations;
     n.apart = !workspace.element_damping.empty();
@@ -405,7 +231,7 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     if (first < 0) return false;
     if (n.iterations > 1 && !iterate(n, first)) return false;
     report.converged &= converged_before;
-    move(n, workspace.v);
+    set_positions(n, workspace.v);
     return true;
 }
 

@@ -5,7 +5,6 @@
 // with infinite k the bodies just stop and part. Rounds go from contact to contact, each spring with the others'
 // current impulses, and end early: the rest is left to the next steps. Plants that overlap part by position correction.
 #include <algorithm>
-#include <cmath>
 
 #include "solve/impulses.hpp"
 

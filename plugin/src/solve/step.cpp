@@ -1,6 +1,5 @@
 // In: a plant's motion, its loads and a time h. Out: its motion h later, or the same motion and ok = false.
 #include <cmath>
-#include <cstring>
 #include <tuple>
 
 #include "core/assert.hpp"

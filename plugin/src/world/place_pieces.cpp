@@ -5,7 +5,7 @@
 
 #include "batch/flat.hpp"
 #include "core/decompose.hpp"
-#include "core/lanes.hpp"
+#include "core/lane_vectors.hpp"
 #include "world/convert.hpp"
 #include "world/world.hpp"
 

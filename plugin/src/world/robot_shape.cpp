@@ -1,6 +1,5 @@
 // Collision shapes of a robot's link: the file's shapes come in, a compound of Bullet's shapes goes out. Meshes
 // become their convex hulls.
-#include <algorithm>
 
 #include "world/convert.hpp"
 #include "world/robot.hpp"

@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
-#include "world/is_in.hpp"
 #include "world/snapshot.hpp"
 
 namespace frond {

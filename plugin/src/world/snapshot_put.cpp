@@ -1,6 +1,7 @@
 // In: a snapshot that fits a world. Out: the world in the snapshot's state.
 #include <algorithm>
 
+#include "plant/pins.hpp"
 #include "world/snapshot.hpp"
 
 namespace frond {

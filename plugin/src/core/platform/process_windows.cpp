@@ -53,6 +53,24 @@ void open_pipe(Handle& reading, Handle& writing) {
     SetHandleInformation(reading.handle, HANDLE_FLAG_INHERIT, 0);
 }
 
+// A process that is out of memory gets none; one that is out of time is ended.
+void make_job(const ProcessLimits& limits, Handle& job) {
+    job.handle = CreateJobObjectW(nullptr, nullptr);
+    if (!job.handle) throw_last();
+    JOBOBJECT_EXTENDED_LIMIT_INFORMATION most = {};
+    most.BasicLimitInformation.LimitFlags =
+        JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE | JOB_OBJECT_LIMIT_DIE_ON_UNHANDLED_EXCEPTION;
+    if (limits.cpu_seconds > 0) {
+        most.BasicLimitInformation.LimitFlags |= JOB_OBJECT_LIMIT_PROCESS_TIME;
+        most.BasicLimitInformation.PerProcessUserTimeLimit.QuadPart = LONGLONG(1e7 * limits.cpu_seconds);
+    }
+    if (limits.memory_mib > 0) {
+        most.BasicLimitInformation.LimitFlags |= JOB_OBJECT_LIMIT_PROCESS_MEMORY;
+        most.ProcessMemoryLimit = SIZE_T(limits.memory_mib * 1048576);
+    }
+    SetInformationJobObject(job.handle, JobObjectExtendedLimitInformation, &most, sizeof most);
+}
+
 std::wstring wide(const std::string& text) {
     return std::filesystem::u8path(text).wstring();
 }
@@ -108,22 +126,7 @@ Child::Child(const std::string& program, const std::vector<std::string>& argumen
     SECURITY_ATTRIBUTES inherited = {sizeof(SECURITY_ATTRIBUTES), nullptr, TRUE};
     nothing.handle =
         CreateFileW(L"NUL", GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, &inherited, OPEN_EXISTING, 0, nullptr);
-    inside->job.handle = CreateJobObjectW(nullptr, nullptr);
-    if (!inside->job.handle) throw_last();
-
-    // A process that is out of memory gets none; one that is out of time is ended.
-    JOBOBJECT_EXTENDED_LIMIT_INFORMATION most = {};
-    most.BasicLimitInformation.LimitFlags =
-        JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE | JOB_OBJECT_LIMIT_DIE_ON_UNHANDLED_EXCEPTION;
-    if (limits.cpu_seconds > 0) {
-        most.BasicLimitInformation.LimitFlags |= JOB_OBJECT_LIMIT_PROCESS_TIME;
-        most.BasicLimitInformation.PerProcessUserTimeLimit.QuadPart = LONGLONG(1e7 * limits.cpu_seconds);
-    }
-    if (limits.memory_mib > 0) {
-        most.BasicLimitInformation.LimitFlags |= JOB_OBJECT_LIMIT_PROCESS_MEMORY;
-        most.ProcessMemoryLimit = SIZE_T(limits.memory_mib * 1048576);
-    }
-    SetInformationJobObject(inside->job.handle, JobObjectExtendedLimitInformation, &most, sizeof most);
+    make_job(limits, inside->job);
 
     // The child inherits these three handles alone.
     HANDLE handles[] = {nothing.handle, written.handle, said.handle};

@@ -1,0 +1,154 @@
+// In: velocities at the end of an implicit stage. Out: residual, potential and matrix of its equations.
+#include "solve/stage_equations.hpp"
+
+#include <cmath>
+
+#include "solve/drags.hpp"
+#include "solve/springs.hpp"
+
+namespace frond {
+
+void set_positions(const StageEquations& e, const VecX& v) {
+    e.w.x = e.stage.x_base + e.stage.step * v;
+}
+
+// Computes the residual without the terms of K: step * f + impulse - M (v - v_base) - step * a M v.
+static void start_residual(const StageEquations& e, const VecX& v, VecX& rhs) {
+    const double step = e.stage.step;
+    rhs = e.w.external + e.w.elastic;
+    add_spring_force(e.input.loads.springs, e.w.x, rhs);
+    add_drag_force(e.input.loads.drags, e.w.x, v, rhs);
+    rhs *= step;
+    if (e.stage.impulse) rhs += *e.stage.impulse;
+    e.w.dv = e.stage.v_base - (1 + step * e.input.settings.mass_damping) * v;
+    multiply_mass(e.system, e.w.inertia, e.w.dv, e.w.momentum);
+    rhs += e.w.momentum;
+}
+
+double free_norm(const StageEquations& e, const VecX& rhs) {
+    double sum = 0;
+    for (int i = 0; i < e.system.elements->node_count; ++i)
+        if (!e.w.held[size_t(i)]) sum += point(rhs, i).squaredNorm();
+    return std::sqrt(sum);
+}
+
+const VecX& linearized_from(const StageEquations& e) {
+    const VecX& start = e.input.motion.x;
+    return &e.stage.x_from == &start || is_calm(e.system, start, e.stage.x_from) ? e.stage.x_from : start;
+}
+
+void linearize_at_start(StageEquations& e) {
+    Workspace& w = e.w;
+    const VecX& from = linearized_from(e);
+    w.elastic.setZero(from.size());
+    w.A.set_zero();
+    set_positions(e, w.v);
+    w.dv = w.x - from;
+    if (e.at_once) {
+        e.report.inverted = e.body.add_ahead(
+            *w.elements, from, {w.dv.data(), w.v.data(), e.stage.step, e.apart ? 0 : e.rayleigh, w.element_damping},
+            w.elastic, w.A);
+        return start_residual(e, w.v, w.rhs);
+    }
+    if (e.apart) {
+        w.damping.set_zero();
+        e.report.inverted =
+            e.body.add_force_stiffness_and_damping(*w.elements, from, w.element_damping, w.elastic, w.A, w.damping);
+    } else {
+        e.report.inverted = e.body.add_force_and_stiffness(*w.elements, from, Tangent::positive, w.elastic, w.A);
+    }
+    const bool is_multiple = !e.apart && !e.exact;  // the damping is a multiple of this stiffness
+    if (!e.apart && (e.exact || e.keep_damping)) w.damping = w.A;
+    if (e.exact) {
+        w.A.set_zero();
+        e.body.add_stiffness(*w.elements, from, Tangent::exact, 1, w.A);
+    }
+    if (is_multiple) w.dv += e.rayleigh * w.v;
+    w.A.multiply(w.dv, w.product);
+    start_residual(e, w.v, w.rhs);
+    w.rhs -= e.stage.step * w.product;
+    if (is_multiple) return;
+    w.damping.multiply(w.v, w.product);
+    w.rhs -= e.stage.step * e.rayleigh * w.product;
+}
+
+double residual_at(StageEquations& e, const VecX& v, VecX& rhs) {
+    Workspace& w = e.w;
+    e.report.work++;
+    set_positions(e, v);
+    w.elastic.setZero(v.size());
+    e.report.inverted = e.body.add_force(*w.elements, w.x, w.elastic);
+    start_residual(e, v, rhs);
+    if (e.keep_damping) {
+        w.damping.multiply(v, w.product);
+        rhs -= e.stage.step * e.rayleigh * w.product;
+    }
+    return free_norm(e, rhs);
+}
+
+double potential_at(const StageEquations& e, const VecX& v) {
+    Workspace& w = e.w;
+    const double step = e.stage.step, a = e.input.settings.mass_damping;
+    e.report.work++;
+    set_positions(e, v);
+    double potential =
+        e.body.energy(*w.elements, w.x) + spring_energy(e.input.loads.springs, w.x) - step * w.external.dot(v);
+    w.dv = v - e.stage.v_base;
+    multiply_mass(e.system, w.inertia, w.dv, w.momentum);
+    potential += 0.5 * w.dv.dot(w.momentum);
+    multiply_mass(e.system, w.inertia, v, w.momentum);
+    potential += 0.5 * step * a * v.dot(w.momentum);
+    potential += step * drag_potential(e.input.loads.drags, w.x, v);
+    if (e.stage.impulse) potential -= e.stage.impulse->dot(v);
+    if (e.keep_damping) {
+        w.damping.multiply(v, w.product);
+        potential += 0.5 * step * e.rayleigh * v.dot(w.product);
+    }
+    return potential;
+}
+
+static void add_mass(const Masses& masses, double scale, BlockMatrix& A) {
+    const auto add = [&](int slot) { A.block(slot).diagonal().array() += scale * masses.slot[size_t(slot)]; };
+    const BlockPattern& pattern = *A.pattern;
+    if (masses.lumped)
+        for (int i = 0; i < pattern.node_count; ++i) add(pattern.start[size_t(i)]);
+    else
+        for (int k = 0; k < pattern.block_count(); ++k) add(k);
+}
+
+void add_inertia(Workspace& w, double scale) {
+    for (size_t i = 0; i < w.inertia.size(); ++i)
+        if (!w.held[2 * i + 1]) w.A.block(w.A.pattern->start[2 * i + 1]) += scale * w.inertia[i];
+}
+
+void form_matrix(StageEquations& e, bool first, Tangent tangent) {
+    BlockMatrix& A = e.w.A;
+    const double step = e.stage.step, mass = 1 + step * e.input.settings.mass_damping;
+    const bool alike = first && !e.apart && !e.exact;
+    const double scale = step * step + (alike ? step * e.rayleigh : 0);
+    if (!e.at_once)
+        for (double& value : A.values) value *= scale;
+    if (!e.at_once && !alike && e.keep_damping)
+        for (size_t k = 0; k < A.values.size(); ++k) A.values[k] += step * e.rayleigh * e.w.damping.values[k];
+    add_mass(e.system.masses, mass, A);
+    add_inertia(e.w, mass);
+    add_spring_stiffness(e.input.loads.springs, e.w.x, tangent, step * step, A);
+    add_drag_damping(e.input.loads.drags, e.w.x, step, A);
+}
+
+void hold(StageEquations& e) {
+    Workspace& w = e.w;
+    const BlockPattern& pattern = *w.A.pattern;
+    for (int j = 0; j < pattern.node_count; ++j)
+        for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
+            const int i = pattern.row[size_t(k)];
+            if (!w.held[size_t(i)] && !w.held[size_t(j)]) continue;
+            auto block = w.A.block(k);
+            block.setZero();
+            if (i == j) block.setIdentity();
+        }
+    for (int i = 0; i < pattern.node_count; ++i)
+        if (w.held[size_t(i)]) point(w.rhs, i).setZero();
+}
+
+}  // namespace frond
