@@ -51,10 +51,11 @@ struct BeginAnew {
     template <class S>
     FROND_INLINE void run() const {
         const Batch& a = step.a;
+        const bool is_ahead = !a.system->row->retract;
         for (int i = 0; i < a.system->elements->node_count; ++i) {
             const Lanes3<S> x = load3<S>(a.x.data(), 3 * i),
                             v = step.pinned[size_t(i)] ? Lanes3<S>{} : load3<S>(a.v.data(), 3 * i);
-            step.begin(3 * i, v, x + constant<S>(step.h) * v, x, v);
+            step.begin(3 * i, v, is_ahead ? x + constant<S>(step.h) * v : x, x, v);
         }
     }
 };

@@ -12,6 +12,7 @@ bool step_implicit_euler(Workspace& workspace, const StepInput& input, SolveRepo
 
 bool step_euler_ahead(Workspace& workspace, const StepInput& input, SolveReport& report) {
     const Motion& motion = input.motion;
+    if (workspace.system->row->retract) return step_implicit_euler(workspace, input, report);
     carry_held(workspace, input);
     workspace.x_from = motion.x + input.h * motion.v;
     return solve_stage(workspace, input, {motion.x, motion.v, input.h, workspace.x_from}, report);

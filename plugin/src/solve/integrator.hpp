@@ -79,9 +79,10 @@ void divide_by_mass(const Workspace& workspace, const VecX& b, VecX& x);
 // Puts forces and damping at the start of the step [N] into workspace.force.
 void force_at_start(Workspace& workspace, const StepInput& input, SolveReport& report);
 
-// Takes the step of implicit Euler by which other integrators step where they are not to look back, or have no stages:
-// with forces at the positions that the velocities predict, where these are within the trust bound. With forces at the
-// start, as the paper's, what turns ends inflated.
+// Takes the step of implicit Euler by which other integrators step where they are not to look back, or have no stages.
+// With forces at the start, as the paper's, what turns ends inflated. So they are taken at the positions that the
+// velocities predict, where these are within the trust bound, but for what is retracted, which keeps its lengths: after
+// an impact velocities foretell little, and would strain stiff rods.
 bool step_euler_ahead(Workspace& workspace, const StepInput& input, SolveReport& report);
 
 struct Integrator {
