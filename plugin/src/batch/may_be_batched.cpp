@@ -33,7 +33,8 @@ bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h) {
 bool go_alike(const Plant& a, const Plant& b) {
     return a.system == b.system && a.input.effects == b.input.effects && a.size == b.size &&
            a.step.looks_back == b.step.looks_back &&
-           (!a.step.looks_back || a.state.motion.history.h == b.state.motion.history.h) &&
+           (a.step.looks_back ? a.state.motion.history.h == b.state.motion.history.h
+                              : a.state.is_touched == b.state.is_touched) &&
            are_alike(a.input.settings, b.input.settings) && a.state.motion.pinned == b.state.motion.pinned;
 }
 

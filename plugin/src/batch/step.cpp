@@ -48,10 +48,10 @@ struct LookBack {
 // The same for implicit Euler, without history.
 struct BeginAnew {
     LookBack step;
+    bool is_ahead;  // forces are taken where velocities lead
     template <class S>
     FROND_INLINE void run() const {
         const Batch& a = step.a;
-        const bool is_ahead = !a.system->row->retract;
         for (int i = 0; i < a.system->elements->node_count; ++i) {
             const Lanes3<S> x = load3<S>(a.x.data(), 3 * i),
                             v = step.pinned[size_t(i)] ? Lanes3<S>{} : load3<S>(a.v.data(), 3 * i);
@@ -289,7 +289,7 @@ unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<u
     if (looks_back)
         run_in_lanes(a.lanes, look_back);
     else
-        run_in_lanes(a.lanes, BeginAnew{look_back});
+        run_in_lanes(a.lanes, BeginAnew{look_back, takes_forces_ahead(system, settings)});
     unsigned lost = system.row->batch->not_calm(elements, a.x, a.x_from, 1);
 
     const bool turns = system.row->batch->rotary_inertia != nullptr;

@@ -91,7 +91,7 @@ static void minimise(Plant& plant, frond_integrator method, double h, bool from_
     plant.report = solve_step(*plant.step.workspace, settings, plant.step.loads, h, motion);
     plant.report.add_cost(before);
     plant.step.loads.force = force;
-    motion.history.shaken = true;
+    motion.history.shaken = method != plant.step.settings.integrator;
 }
 
 // Goes only as far along the step as the plant gains no energy that nothing can have given.
@@ -148,7 +148,7 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects) {
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
     // Contacts add their response to the linear solution first.
-    settings.retracts = !plant.state.is_touched;
+    settings.is_touched = plant.state.is_touched;
     return settings;
 }
 

@@ -10,9 +10,13 @@ bool step_implicit_euler(Workspace& workspace, const StepInput& input, SolveRepo
     return solve_stage(workspace, input, {input.motion.x, input.motion.v, input.h, input.motion.x}, report);
 }
 
+bool takes_forces_ahead(const System& system, const SolveSettings& settings) {
+    return !system.row->retract && !settings.is_touched;
+}
+
 bool step_euler_ahead(Workspace& workspace, const StepInput& input, SolveReport& report) {
     const Motion& motion = input.motion;
-    if (workspace.system->row->retract) return step_implicit_euler(workspace, input, report);
+    if (!takes_forces_ahead(*workspace.system, input.settings)) return step_implicit_euler(workspace, input, report);
     carry_held(workspace, input);
     workspace.x_from = motion.x + input.h * motion.v;
     return solve_stage(workspace, input, {motion.x, motion.v, input.h, workspace.x_from}, report);

@@ -80,10 +80,12 @@ void divide_by_mass(const Workspace& workspace, const VecX& b, VecX& x);
 void force_at_start(Workspace& workspace, const StepInput& input, SolveReport& report);
 
 // Takes the step of implicit Euler by which other integrators step where they are not to look back, or have no stages.
-// With forces at the start, as the paper's, what turns ends inflated. So they are taken at the positions that the
-// velocities predict, where these are within the trust bound, but for what is retracted, which keeps its lengths: after
-// an impact velocities foretell little, and would strain stiff rods.
+// With forces at the start, as the paper's, what turns ends inflated, so they are taken at the positions that the
+// velocities predict, where these are within the trust bound.
 bool step_euler_ahead(Workspace& workspace, const StepInput& input, SolveReport& report);
+// Returns whether it does so: not where contacts follow, as velocities lead into what touches the plant, nor for what
+// is retracted and so keeps its lengths anyway.
+bool takes_forces_ahead(const System& system, const SolveSettings& settings);
 
 struct Integrator {
     const char* name;

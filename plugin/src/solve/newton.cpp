@@ -38,7 +38,7 @@ bool is_spent(const Newton& n) {
 // that to retract_step().
 void retract(const Newton& n, const VecX& from, VecX& v) {
     if (!n.body.retract) return;
-    if (!n.input.settings.retracts) {
+    if (n.input.settings.is_touched) {
         if (n.iterations == 1) n.w.retract_from = from;
         return;
     }

@@ -48,8 +48,8 @@ struct SolveSettings {
     double spectral_radius = 0.8;  // generalized_alpha's at infinite frequency, 0..1 [-]
     bool careful = false;          // every solve has a line search
     bool from_rest = false;        // and may begin at rest, if the potential is less there
-    bool retracts = true;          // rods keep the strain that a solve gives them (see Mechanics::retract); else
-                                   // retract_step() does that, after responses were added to the solution
+    bool is_touched = false;       // contacts will respond: rods keep the strain that a solve gives them (see
+                                   // Mechanics::retract) only after that, by retract_step()
     int most_work = 0;             // work after which a stage with line searches ends where it is; 0: no limit
 };
 
@@ -133,7 +133,7 @@ bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& im
 double reach_of(const Workspace& workspace);
 // Adds such velocities, and the displacements by them within the step, to the motion that the step left.
 void add_response(const Workspace& workspace, const VecX& dv, Motion& motion);
-// Does what a step without SolveSettings::retracts left out, to its solution with all responses.
+// Does what a step with SolveSettings::is_touched left out, to its solution with all responses.
 void retract_step(Workspace& workspace, Motion& motion);
 // Adds only the displacements, so that what is moved apart gains no velocity.
 void add_correction(const Workspace& workspace, const VecX& dv, Motion& motion);
