@@ -286,11 +286,12 @@ unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<u
     a.held = system.loose;
     for (size_t i = 0; i < pinned.size(); ++i) a.held[i] |= pinned[i];
     const LookBack look_back = {a, pinned, h, h_before, method};
+    const bool is_ahead = looks_back || takes_forces_ahead(system, settings);
     if (looks_back)
         run_in_lanes(a.lanes, look_back);
     else
-        run_in_lanes(a.lanes, BeginAnew{look_back, takes_forces_ahead(system, settings)});
-    unsigned lost = system.row->batch->not_calm(elements, a.x, a.x_from, 1);
+        run_in_lanes(a.lanes, BeginAnew{look_back, is_ahead});
+    unsigned lost = is_ahead ? system.row->batch->not_calm(elements, a.x, a.x_from, 1) : 0;
 
     const bool turns = system.row->batch->rotary_inertia != nullptr;
     if (turns) system.row->batch->rotary_inertia(elements, a.x, a.inertia);

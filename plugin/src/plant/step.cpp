@@ -91,6 +91,7 @@ static void minimise(Plant& plant, frond_integrator method, double h, bool from_
     plant.report = solve_step(*plant.step.workspace, settings, plant.step.loads, h, motion);
     plant.report.add_cost(before);
     plant.step.loads.force = force;
+    // A step of its own integrator ends as that would, so the next one needs no damping.
     motion.history.shaken = method != plant.step.settings.integrator;
 }
 
