@@ -364,9 +364,10 @@ TEST(Detail, KeepsABudget) {
                m.last == FROND_DETAIL_MODAL;
     };
     constexpr double OWN = 0.95;
+    constexpr int ENOUGH = 3;
     Medians now = {};
     int undisturbed = 0;
-    for (int i = 0; i < 10 && undisturbed < 3 && !keeps(now); i++) {
+    for (int i = 0; i < 10 && undisturbed < ENOUGH && !keeps(now); i++) {
         const auto start = std::chrono::steady_clock::now();
         const double start_used = cpu_seconds();
         medians();
@@ -374,7 +375,7 @@ TEST(Detail, KeepsABudget) {
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
         undisturbed += cpu_seconds() - start_used > OWN * passed.count();
     }
-    if (undisturbed == 0 && !keeps(now)) GTEST_SKIP() << "other programs take the cores";
+    if (undisturbed < ENOUGH && !keeps(now)) GTEST_SKIP() << "other programs take the cores";
     EXPECT_LT(now.ms, def.budget);
     EXPECT_GT(now.sway, COUNT / 10);
     EXPECT_GT(now.more, 0);
