@@ -65,10 +65,7 @@ bool slow_down(Plant& plant, double h) {
     Motion& motion = plant.state.motion;
     const double kinetic = kinetic_energy(*plant.system, motion.x, motion.v);
     const double left = most_given(plant, h) + energy_before(plant) - elastic_energy(plant, motion.x);
-    if (!(kinetic > left)) return true;
-    motion.v *= std::sqrt(std::max(0.0, left) / kinetic);
-    // As by pulls of fibres, the integrator goes on.
-    if (motion.history.valid) motion.history.v_end = motion.v;
+    if (kinetic > left) motion.v *= std::sqrt(std::max(0.0, left) / kinetic);
     return left >= 0;
 }
 

@@ -192,10 +192,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
 }
 
 void finish_solving(Plant& plant, double h) {
-    hold_lengths(plant, h);
-    // The solution without fibres was in balance with grabs and other loads, which pulls work against.
-    const bool was_pulled = plant.state.fibre_force.size() > 0 && !plant.state.is_touched;
-    if (was_pulled && !slow_down(plant, h)) hold_back(plant, h);
+    hold_lengths(plant, h, true);
     // Chains have no fibres, so none of their nodes has moved since the plausibility check. A plant on its course is
     // not being stretched.
     plant.step.is_sound =
