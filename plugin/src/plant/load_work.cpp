@@ -71,16 +71,19 @@ std::vector<Hold> holds_of(const Plant& plant, const VecX& way) {
         holds.push_back({{{i, 1}}, point(way, i), plant.follow && i % 2 == 1});
     std::map<int, double> weight;  // of all springs at a node
     const auto visit = [&](const Attachment& attachment, const auto& take) {
-        for (int k = 0; k < attachment.count; k++)
-            if (motion.pinned.empty() || !motion.pinned[size_t(attachment.node[size_t(k)])])
-                take(attachment.node[size_t(k)], std::abs(attachment.weight[size_t(k)]));
+        for (size_t k = 0; k < size_t(attachment.count); k++)
+            if (motion.pinned.empty() || !motion.pinned[size_t(attachment.node[k])])
+                take(attachment.node[k], std::abs(attachment.weight[k]));
     };
     for (const Spring& spring : plant.input.pin_springs)
         visit(spring.attachment, [&](int node, double share) { weight[node] += share; });
     for (const Spring& spring : plant.input.pin_springs) {
         Hold hold = {{}, displacement(spring.attachment, plant), false};
+        // What the spring does to nodes that are pinned themselves is lost in what holds those.
+        double seen = 0;
+        visit(spring.attachment, [&](int, double share) { seen += share; });
         visit(spring.attachment, [&](int node, double share) {
-            if (share > 0) hold.nodes.push_back({node, share / weight[node]});
+            if (share > 0) hold.nodes.push_back({node, share / (weight[node] * seen)});
         });
         holds.push_back(hold);
     }
