@@ -1,7 +1,8 @@
 // In: rods and their nodes' positions and rotations. Out: the plastic part of their curvature. A segment yields by the
 // strain of its outermost fibre under its two curvatures. The return to what the section bears scales both of them
-// alike. Where the plastic bend turns the frame in which twist and tilt are measured, only as much flows as leaves the
-// segment no more elastic energy. Twist, tilt and stretch stay elastic: along its axis tissue breaks before it flows.
+// alike. The plastic bend turns the frame in which twist and tilt are measured: where the plant would gain elastic
+// energy by it, each segment yields only as much as leaves it no more than it had. Twist, tilt and stretch stay
+// elastic: along its axis tissue breaks before it flows.
 #include <algorithm>
 #include <cmath>
 
@@ -79,9 +80,14 @@ void rods_flow(Elements& body, const VecX& x, double h) {
     for (double share = 1; share > LEAST && !flows.empty(); share /= 2) {
         for (const Flow& flow : flows) give_set(elements.segments[flow.segment], flow.from + share * flow.curvature);
         const std::vector<RodStrain> after = rod_strains(elements, x);
-        const auto dissipates = [&](const Flow& flow) {
+        const auto gain = [&](const Flow& flow) {
             const RodSegment& rod = elements.segments[flow.segment];
-            if (!(segment_energy(rod, after[flow.segment]) <= segment_energy(rod, before[flow.segment]))) return false;
+            return segment_energy(rod, after[flow.segment]) - segment_energy(rod, before[flow.segment]);
+        };
+        double gained = 0;
+        for (const Flow& flow : flows) gained += gain(flow);
+        const auto dissipates = [&](const Flow& flow) {
+            if (!(gained <= 0) && !(gain(flow) <= 0)) return false;
             double& hardening = elements.hardening[flow.segment];
             hardening += share * (flow.hardening - hardening);
             return true;

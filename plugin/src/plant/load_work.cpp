@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "mechanics/rotation.hpp"
 #include "plant/plant.hpp"
@@ -54,40 +53,18 @@ void add_grabs(const Plant& plant, LoadWork& work) {
     }
 }
 
-// What a pin holds: a node, or a point between several, which a stiff spring holds for a pinned cage node. Such a
-// spring's own force would be the difference of two nearly equal places, so it is found as what its nodes lack, of each
-// the share that is by this spring; turns about the point are free.
-struct Hold {
-    std::vector<std::pair<int, double>> nodes;  // and shares
-    Vec3 way;                                   // in the step [m], of a rotation [rad]
-    bool turns;
-};
-
-std::vector<Hold> holds_of(const Plant& plant, const VecX& way) {
-    std::vector<Hold> holds;
-    const Motion& motion = plant.state.motion;
-    const int pinned_count = int(motion.pinned.size());
-    for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1))
-        holds.push_back({{{i, 1}}, point(way, i), plant.follow && i % 2 == 1});
-    std::map<int, double> weight;  // of all springs at a node
-    const auto visit = [&](const Attachment& attachment, const auto& take) {
-        for (size_t k = 0; k < size_t(attachment.count); k++)
-            if (motion.pinned.empty() || !motion.pinned[size_t(attachment.node[k])])
-                take(attachment.node[k], std::abs(attachment.weight[k]));
-    };
+// Returns which nodes pins hold: those that are pinned, and those that stiff springs hold for pinned cage nodes. Such a
+// spring's own force would be the difference of two nearly equal places.
+std::vector<uint8_t> held_nodes(const Plant& plant) {
+    std::vector<uint8_t> held = plant.state.motion.pinned;
+    held.resize(size_t(plant.state.motion.x.size() / 3));
     for (const Spring& spring : plant.input.pin_springs)
-        visit(spring.attachment, [&](int node, double share) { weight[node] += share; });
-    for (const Spring& spring : plant.input.pin_springs) {
-        Hold hold = {{}, displacement(spring.attachment, plant), false};
-        // What the spring does to nodes that are pinned themselves is lost in what holds those.
-        double seen = 0;
-        visit(spring.attachment, [&](int, double share) { seen += share; });
-        visit(spring.attachment, [&](int node, double share) {
-            if (share > 0) hold.nodes.push_back({node, share / (weight[node] * seen)});
-        });
-        holds.push_back(hold);
-    }
-    return holds;
+        for (int k = 0; k < spring.attachment.count; k++) {
+            const size_t node = size_t(spring.attachment.node[size_t(k)]);
+            held[node] = 1;
+            if (spring.attachment.turns) held[node + 1] = 1;
+        }
+    return held;
 }
 
 // Returns the forces on all nodes but those that hold them, and damping proportional to stiffness.
@@ -133,13 +110,13 @@ Vec3 mean_holding_force(const Plant& plant, double h) {
     return momentum / h - loads;
 }
 
-// Returns the mean displacement of what is held.
-Vec3 mean_way(const std::vector<Hold>& holds) {
+// Returns the mean displacement of held nodes.
+Vec3 mean_way(const Plant& plant, const std::vector<uint8_t>& held, const VecX& way) {
     Vec3 sum = Vec3::Zero();
     int count = 0;
-    for (const Hold& hold : holds) {
-        if (hold.turns) continue;
-        sum += hold.way;
+    for (int i = 0; i < int(held.size()); i += plant.follow ? 2 : 1) {
+        if (!held[size_t(i)]) continue;
+        sum += point(way, i);
         count++;
     }
     return sum / std::max(count, 1);
@@ -148,7 +125,7 @@ Vec3 mean_way(const std::vector<Hold>& holds) {
 // Elastic forces count by the trapezoidal rule, their deviation from it halfway as error. The damping of elements that
 // differ counts by its mean; half of the largest counts as error, since the step took it from a stiffness that is not
 // known here.
-void add_pins(const Plant& plant, double h, const std::vector<Hold>& holds, const VecX& way, LoadWork& work) {
+void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, const VecX& way, LoadWork& work) {
     const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good;
     const VecX elastic = elastic_force(plant, x), mean_elastic = 0.5 * (elastic + elastic_force(plant, x_good));
     const VecX off_mean = elastic_force(plant, x_good + 0.5 * way) - mean_elastic;
@@ -161,21 +138,25 @@ void add_pins(const Plant& plant, double h, const std::vector<Hold>& holds, cons
         most = *high;
     }
     const VecX force = forces_at_end(plant, elastic, h), per_second = damping_per_second(plant, elastic);
-    const Vec3 mean = mean_way(holds);
+    const Vec3 mean = mean_way(plant, held, way);
     work.pins += mean_holding_force(plant, h).dot(mean);
-    for (const Hold& hold : holds) {
-        Vec3 reaction = Vec3::Zero(), off = Vec3::Zero(), damped = Vec3::Zero();
-        for (const auto& [i, share] : hold.nodes) {
-            const Vec3 acceleration = (point(plant.state.motion.v, i) - point(plant.step.v_good, i)) / h;
-            const Vec3 elastic_change = point(elastic, i) - point(mean_elastic, i);
-            reaction += share * (mass[i] * acceleration - point(force, i) + elastic_change);
-            off += share * point(off_mean, i);
-            damped += share * point(per_second, i);
-        }
-        const Vec3 own = hold.turns ? hold.way : Vec3(hold.way - mean);
-        work.pins += (reaction - damping * damped).dot(own);
-        work.error += std::abs(off.dot(own)) + 0.5 * most * std::abs(damped.dot(own));
+    for (int i = 0; i < int(held.size()); i++) {
+        if (!held[size_t(i)]) continue;
+        const bool is_turn = plant.follow && i % 2 == 1;
+        const Vec3 own = is_turn ? Vec3(point(way, i)) : Vec3(point(way, i) - mean);
+        const Vec3 acceleration = (point(plant.state.motion.v, i) - point(plant.step.v_good, i)) / h;
+        const Vec3 elastic_change = point(elastic, i) - point(mean_elastic, i);
+        const Vec3 reaction =
+            mass[i] * acceleration - point(force, i) + elastic_change - damping * point(per_second, i);
+        work.pins += reaction.dot(own);
+        work.error += std::abs(point(off_mean, i).dot(own)) + 0.5 * most * std::abs(point(per_second, i).dot(own));
     }
+}
+
+bool any_moves(const std::vector<uint8_t>& held, const VecX& way) {
+    for (size_t i = 0; i < held.size(); i++)
+        if (held[i] && !point(way, int(i)).isZero(0)) return true;
+    return false;
 }
 
 // Returns the rotation of a chain node in the step [rad]; unlike the difference of rotation vectors it is one about an
@@ -213,9 +194,8 @@ LoadWork work_of_loads(const Plant& plant, double h) {
     add_air(plant, work);
     add_grabs(plant, work);
     if (is_pushed(plant)) work.contacts = plant.step.push->share / h * plant.step.push->impulse.dot(way);
-    const std::vector<Hold> holds = holds_of(plant, way);
-    const auto moves = [](const Hold& hold) { return !hold.way.isZero(0); };
-    if (std::any_of(holds.begin(), holds.end(), moves)) add_pins(plant, h, holds, way, work);
+    const std::vector<uint8_t> held = held_nodes(plant);
+    if (any_moves(held, way)) add_pins(plant, h, held, way, work);
     return work;
 }
 
