@@ -318,6 +318,13 @@ TEST(Detail, GoesByTheHostsOwnDistanceAndBySize) {
 }
 
 // If the budget is a part of what all plants need, the median step keeps it and near plants have priority.
+// Returns the CPU time of this process [s]; std::clock() is wall time on Windows.
+double cpu_seconds() {
+    timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
 TEST(Detail, KeepsABudget) {
     if (SANITIZED) GTEST_SKIP() << "a time";
     constexpr int COUNT = 200;
@@ -357,17 +364,18 @@ TEST(Detail, KeepsABudget) {
                m.last == FROND_DETAIL_MODAL;
     };
     constexpr double OWN = 0.95;
+    constexpr int ENOUGH = 3;
     Medians now = {};
     int undisturbed = 0;
-    for (int i = 0; i < 10 && undisturbed < 3 && !keeps(now); i++) {
+    for (int i = 0; i < 10 && undisturbed < ENOUGH && !keeps(now); i++) {
         const auto start = std::chrono::steady_clock::now();
-        const std::clock_t start_used = std::clock();
+        const double start_used = cpu_seconds();
         medians();
         now = medians();
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        undisturbed += double(std::clock() - start_used) / CLOCKS_PER_SEC > OWN * passed.count();
+        undisturbed += cpu_seconds() - start_used > OWN * passed.count();
     }
-    if (undisturbed == 0 && !keeps(now)) GTEST_SKIP() << "other programs take the cores";
+    if (undisturbed < ENOUGH && !keeps(now)) GTEST_SKIP() << "other programs take the cores";
     EXPECT_LT(now.ms, def.budget);
     EXPECT_GT(now.sway, COUNT / 10);
     EXPECT_GT(now.more, 0);

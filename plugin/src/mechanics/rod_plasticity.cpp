@@ -1,7 +1,7 @@
 // In: rods and their nodes' positions and rotations. Out: the plastic part of their curvature. A segment yields by the
 // strain of its outermost fibre under its two curvatures. The return to what the section bears scales both of them
-// alike, so that elastic energy never grows by it. Twist, tilt and stretch stay elastic: along its axis tissue breaks
-// before it flows.
+// alike. Where the plastic bend turns the frame in which twist and tilt are measured, only as much flows as leaves the
+// segment no more elastic energy. Twist, tilt and stretch stay elastic: along its axis tissue breaks before it flows.
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +15,18 @@ namespace frond {
 namespace {
 
 constexpr size_t NUMBERS_OF_PIECE = 3;  // the two curvatures, hardening
+
+// What a segment's yielding would make plastic.
+struct Flow {
+    size_t segment;
+    Vec3 from, curvature;  // plastic curvature before, and what is added to it [1/m]
+    double hardening;      // after it
+};
+
+// Returns the elastic energy of a segment [J].
+double segment_energy(const RodSegment& rod, const RodStrain& s) {
+    return 0.5 * rod.length * (rod.stretch.dot(s.strain.cwiseAbs2()) + rod.bend.dot(s.curvature.cwiseAbs2()));
+}
 
 }  // namespace
 
@@ -51,16 +63,32 @@ std::unique_ptr<Elements> copy_rods(const Elements& body) {
 }
 
 void rods_flow(Elements& body, const VecX& x, double h) {
+    constexpr double LEAST = 0.1;  // smallest share of a flow that is tried [-]
     RodElements& elements = static_cast<RodElements&>(body);
-    const std::vector<RodStrain> strains = rod_strains(elements, x);
-    for (size_t s = 0; s < strains.size(); ++s) {
+    const std::vector<RodStrain> before = rod_strains(elements, x);
+    std::vector<Flow> flows;
+    for (size_t s = 0; s < before.size(); ++s) {
         const Yield& yield = elements.yields[s];
-        const double bend = fibre_strain(elements.segments[s], strains[s]).bend;
+        const double bend = fibre_strain(elements.segments[s], before[s]).bend;
         if (yield.strain == 0 || !(bend > yield.strain)) continue;
-        RodSegment& rod = elements.segments[s];
-        const double gone = 1 - elastic_share(yield, bend, h, elements.hardening[s]);
-        give_set(rod, rod.set_curvature + gone * Vec3(0, strains[s].curvature[1], strains[s].curvature[2]));
+        Flow flow = {s, elements.segments[s].set_curvature, Vec3::Zero(), elements.hardening[s]};
+        const double gone = 1 - elastic_share(yield, bend, h, flow.hardening);
+        flow.curvature = gone * Vec3(0, before[s].curvature[1], before[s].curvature[2]);
+        flows.push_back(flow);
     }
+    for (double share = 1; share > LEAST && !flows.empty(); share /= 2) {
+        for (const Flow& flow : flows) give_set(elements.segments[flow.segment], flow.from + share * flow.curvature);
+        const std::vector<RodStrain> after = rod_strains(elements, x);
+        const auto dissipates = [&](const Flow& flow) {
+            const RodSegment& rod = elements.segments[flow.segment];
+            if (!(segment_energy(rod, after[flow.segment]) <= segment_energy(rod, before[flow.segment]))) return false;
+            double& hardening = elements.hardening[flow.segment];
+            hardening += share * (flow.hardening - hardening);
+            return true;
+        };
+        flows.erase(std::remove_if(flows.begin(), flows.end(), dissipates), flows.end());
+    }
+    for (const Flow& flow : flows) give_set(elements.segments[flow.segment], flow.from);
 }
 
 std::vector<double> plastic_of_rods(const Elements& body) {

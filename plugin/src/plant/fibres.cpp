@@ -12,6 +12,7 @@
 
 #include "cage/tet_geometry.hpp"
 #include "core/timer.hpp"
+#include "plant/guard.hpp"
 #include "plant/plant.hpp"
 #include "solve/node_compliance.hpp"
 #include "solve/one_sided.hpp"
@@ -191,6 +192,22 @@ void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const
     if (velocity_by(plant, stretches, pulls, dv)) plant.state.motion.v += dv;
 }
 
+// Takes pulls back as far as they gave energy: the solution without fibres was in balance with grabs and pins, which
+// they work against. Returns the share of them that stays.
+double take_back_gain(Plant& plant, const VecX& x_free, const VecX& v_free, double h) {
+    constexpr double LEAST = 0.1;  // share that is tried [-]
+    Motion& motion = plant.state.motion;
+    const VecX way = motion.x - x_free, dv = motion.v - v_free;
+    for (double share = 1; share > LEAST; share /= 2) {
+        motion.x = x_free + share * way;
+        motion.v = v_free + share * dv;
+        if (slow_down(plant, h)) return share;
+    }
+    motion.x = x_free;
+    motion.v = v_free;
+    return 0;
+}
+
 // Pulls are internal forces, so the integrator keeps its history: started anew by implicit Euler after each step with
 // pulls, it would damp the vibration of a plant whose leaves are taut. Only the rates of generalized alpha at the
 // step's end do not include them.
@@ -235,7 +252,7 @@ bool are_slack(Plant& plant) {
 // Corrects positions first, in rounds, since pulls turn the fibres, which is of second order in the displacement.
 // Velocities are corrected separately: where a fibre becomes taut, bdf2 would have it rebound, and faster in the next
 // steps.
-static void pull_back(Plant& plant, double h) {
+static void pull_back(Plant& plant, double h, bool ends_step) {
     update_chain(plant);
     if (plant.state.is_entangled || !plant.state.fibre_give.empty()) let_give(plant, h);
     const std::vector<Row> rows = find_rows(plant);
@@ -243,6 +260,7 @@ static void pull_back(Plant& plant, double h) {
     const Eigen::Index count = Eigen::Index(rows.size());
     const bool was_shaken = plant.state.motion.history.shaken;
     const double reach = reach_of(*plant.step.workspace);
+    const VecX x_free = plant.state.motion.x, v_free = plant.state.motion.v;
     VecX pulls = VecX::Zero(count), softness(count), dv;  // impulses [N s]; a row's stretch by its impulse [m/(N s)]
     for (Eigen::Index i = 0; i < count; i++) softness[i] = 1 / (reach * rows[size_t(i)].stiffness);
     std::vector<Stretch> stretches = stretches_of(rows, plant.state.motion.x);
@@ -267,14 +285,16 @@ static void pull_back(Plant& plant, double h) {
     }
     plant.state.fibre_force = spread(plant, stretches, pulls) / reach;
     stop_lengthening(plant, stretches, W, pulls);
+    // What contacts push has no meaningful energy before they do.
+    if (ends_step && !plant.state.is_touched) plant.state.fibre_force *= take_back_gain(plant, x_free, v_free, h);
     go_on_from_here(plant.state.motion, was_shaken);
 }
 
-void hold_lengths(Plant& plant, double h) {
+void hold_lengths(Plant& plant, double h, bool ends_step) {
     plant.state.fibre_force.resize(0);
     if (!plant.step.has_fibres || !plant.fibres || !plant.report.ok) return;
     const Timer timer;
-    pull_back(plant, h);
+    pull_back(plant, h, ends_step);
     plant.ms_fibres += timer.ms();
     plant.report.ms_solve += timer.ms();
 }

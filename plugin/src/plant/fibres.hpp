@@ -28,7 +28,8 @@ Fibres make_fibres(const Model& model, int order);
 bool are_slack(Plant& plant);
 
 // Ends a solve over h [s], or a part of a step: pulls back what it stretched; does nothing if all fibres are slack. A
-// step in parts needs it after each: what all of them stretched is too much for the impulses of the last.
-void hold_lengths(Plant& plant, double h);
+// step in parts needs it after each: what all of them stretched is too much for the impulses of the last. At the end of
+// the step pulls are taken back as far as they gave the plant energy.
+void hold_lengths(Plant& plant, double h, bool ends_step);
 
 }  // namespace frond

@@ -12,10 +12,10 @@ struct SolveSettings;
 // Returns the largest displacement of a node in the running step [m]; infinite if it is not a number.
 double farthest_way(const Plant& plant);
 // Returns whether something ended a step of h [s] far from where it was heading when the step began: a position by more
-// than 0.02 of the plant's size, the rotation of a chain node by more than 0.35 rad. Steps longer than 1/60 s always
+// than 0.01 of the plant's size, the rotation of a chain node by more than 0.15 rad. Steps longer than 1/60 s always
 // count as off course.
 bool ends_off_course(const Plant& plant, double h);
-constexpr double OFF_COURSE = 0.02, TURNED_OFF_COURSE = 0.35;  // over the plant's size [-], [rad]
+constexpr double OFF_COURSE = 0.01, TURNED_OFF_COURSE = 0.15;  // over the plant's size [-], [rad]
 // Longest step that is trusted [s]: the error of one solve, relative to the motion, grows as the square of the step,
 // and small displacements strain stiff parts much.
 constexpr double TRUSTED = 1.001 / 60;
@@ -39,6 +39,8 @@ bool keeps_course(Plant& plant, double h);
 // Returns whether no node ran away, and none left its course with energy that nothing can have given. A pressed plant
 // springs far in a solve without contacts, and its energy is meaningless there.
 bool is_plausible(Plant& plant, double h);
+// Slows a plant by what energy it gained beyond what loads and contacts can have given; false if it has not so much.
+bool slow_down(Plant& plant, double h);
 
 // Translates a plant with its pins, between solves, if they were put farther away than `least` times its size.
 bool jump_with_pins(Plant& plant, double least);

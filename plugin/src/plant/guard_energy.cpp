@@ -36,23 +36,37 @@ double lifting_energy(const Plant& plant) {
     return node_mass_of(*plant.system).sum() * GRAVITY * double(plant.size);
 }
 
+// Returns the energy that loads, contacts and weight can have given the plant, errors included [J].
+static double most_given(const Plant& plant, double h) {
+    const LoadWork work = work_of_loads(plant, h);
+    const double by_contacts = is_pushed(plant) ? std::min(plant.step.push->most_work, work.contacts) : 0;
+    // The air's work on a chain that turns is known as well as its order alone.
+    return by_contacts + work.forces + work.grabs + work.air + work.pins + work.error +
+           (plant.follow ? std::abs(work.air) : 0) + work_of_weight(plant, way_of_step(plant));
+}
+
+static double energy_before(const Plant& plant) {
+    return kinetic_energy(*plant.system, plant.step.x_good, plant.step.v_good) +
+           elastic_energy(plant, plant.step.x_good);
+}
+
 // Returns whether the plant has more energy than it had and than the loads and contacts can have given.
 static bool has_energy_from_nowhere(const Plant& plant, double h) {
-    // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-]. The air's
-    // work on a chain that turns is known as well as its order alone.
+    // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-].
     constexpr double SHARE = 0.01, LIFT = 0.01;
-    const LoadWork work = work_of_loads(plant, h);
-    const VecX way = way_of_step(plant);
-    const double by_contacts = is_pushed(plant) ? std::min(plant.step.push->most_work, work.contacts) : 0;
-    const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good;
-    const double given = by_contacts + work.forces + work.grabs + work.air + work.pins + work.error +
-                         (plant.follow ? std::abs(work.air) : 0) + work_of_weight(plant, way) +
-                         LIFT * lifting_energy(plant);
+    const VecX& x = plant.state.motion.x;
+    const double given = most_given(plant, h) + LIFT * lifting_energy(plant);
     const double after = kinetic_energy(*plant.system, x, plant.state.motion.v) + elastic_energy(plant, x);
     // The energy before the step is seldom needed.
-    if (after <= given) return false;
-    const double before = kinetic_energy(*plant.system, x_good, plant.step.v_good) + elastic_energy(plant, x_good);
-    return !(after <= given + (1 + SHARE) * before);
+    return !(after <= given) && !(after <= given + (1 + SHARE) * energy_before(plant));
+}
+
+bool slow_down(Plant& plant, double h) {
+    Motion& motion = plant.state.motion;
+    const double kinetic = kinetic_energy(*plant.system, motion.x, motion.v);
+    const double left = most_given(plant, h) + energy_before(plant) - elastic_energy(plant, motion.x);
+    if (kinetic > left) motion.v *= std::sqrt(std::max(0.0, left) / kinetic);
+    return left >= 0;
 }
 
 // Returns whether a spring that holds a pinned node was led anywhere in the step.

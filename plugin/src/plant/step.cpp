@@ -192,7 +192,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
 }
 
 void finish_solving(Plant& plant, double h) {
-    hold_lengths(plant, h);
+    hold_lengths(plant, h, true);
     // Chains have no fibres, so none of their nodes has moved since the plausibility check. A plant on its course is
     // not being stretched.
     plant.step.is_sound =

@@ -46,7 +46,7 @@ SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
         motion.pin_target = i < count ? VecX(from + (target - from) * (double(i) / count)) : target;
         const VecX x = motion.x, v = motion.v;
         plant.report = solve_step(*plant.step.workspace, plant.step.settings, plant.step.loads, h / count, motion);
-        if (i < count) hold_lengths(plant, h / count);
+        if (i < count) hold_lengths(plant, h / count, false);
         const SolveReport& one = plant.report;
         error += local_error(plant, x, v, h / count);
         sum.ok = one.ok;
