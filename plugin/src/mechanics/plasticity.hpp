@@ -19,6 +19,9 @@ struct Yield {
     bool flat = false;  // a sheet
 };
 
+// Smallest share of a flow that is tried where the whole of it would go too far or give energy [-].
+constexpr double LEAST_FLOW = 0.1;
+
 // Returns the moment of a section at k times the curvature of its first yield, over the moment at first yield: k up to
 // 1, then rising to 1.5 for a sheet and 1.70 for a solid round section.
 double section_limit(const Yield& yield, double k);

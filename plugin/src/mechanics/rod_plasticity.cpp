@@ -64,7 +64,6 @@ std::unique_ptr<Elements> copy_rods(const Elements& body) {
 }
 
 void rods_flow(Elements& body, const VecX& x, double h) {
-    constexpr double LEAST = 0.1;  // smallest share of a flow that is tried [-]
     RodElements& elements = static_cast<RodElements&>(body);
     const std::vector<RodStrain> before = rod_strains(elements, x);
     std::vector<Flow> flows;
@@ -77,7 +76,7 @@ void rods_flow(Elements& body, const VecX& x, double h) {
         flow.curvature = gone * Vec3(0, before[s].curvature[1], before[s].curvature[2]);
         flows.push_back(flow);
     }
-    for (double share = 1; share > LEAST && !flows.empty(); share /= 2) {
+    for (double share = 1; share > LEAST_FLOW && !flows.empty(); share /= 2) {
         for (const Flow& flow : flows) give_set(elements.segments[flow.segment], flow.from + share * flow.curvature);
         const std::vector<RodStrain> after = rod_strains(elements, x);
         const auto gain = [&](const Flow& flow) {

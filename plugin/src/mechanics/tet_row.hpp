@@ -19,7 +19,7 @@ struct TetRow {
                          const Mat3& rest_inverse, TetPlastic& plastic) {
         double hardening = plastic.hardening;
         const double elastic = elastic_share(yield, now.strain, h, hardening);
-        for (double part = 1; part > LEAST; part /= 2) {
+        for (double part = 1; part > LEAST_FLOW; part /= 2) {
             const Mat3 change = flow_of(now.S, 1 - part * (1 - elastic));
             TetPlastic next = plastic;
             next.inverse *= change;
@@ -49,7 +49,6 @@ struct TetRow {
 
     // Unbounded flow would end in a needle, which has no inverse; tissue would have broken before. Where a plastic
     // stretch nears 1.5, tets stay elastic.
-    static constexpr double LEAST = 0.1;     // smallest share of a flow that is tried [-]
     static constexpr double FARTHEST = 3.5;  // largest squared norm of F_p^-1 [-]
 };
 
