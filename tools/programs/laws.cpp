@@ -118,9 +118,8 @@ void Laws::check_places(const Standing& plant, const Loads& loads) {
     const bool is_rooted =
         plant.def.root_height >= 0 && !plant.is_changed && frond_plant_get_fragment_count(plant.handle) == 0;
     const double fall = GRAVITY * time * time;
-    const double allowed =
-        REACH * plant.size + plant.carried +
-        (is_rooted ? 0 : fall + (FAST + 3 * loads.speed + loads.force / plant.info.mass * 0.1) * time);
+    const double allowed = REACH * plant.size + plant.carried +
+                           (is_rooted ? 0 : fall + (FAST + 3 * loads.speed + loads.impulse / plant.info.mass) * time);
     double most = 0;
     for (size_t i = 0; i < now.size(); i++) most = std::max(most, length(now[i] - plant.home[i]));
     expect(Law::FAR, "a node is [m] away", most, allowed);

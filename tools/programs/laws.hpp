@@ -48,8 +48,8 @@ struct Standing {
 
 // The greatest speed and force that operations gave anything.
 struct Loads {
-    double speed = 0, force = 0;  // [m/s], [N]
-    bool has_bodies = false;      // something may press plants
+    double speed = 0, force = 0, impulse = 0;  // [m/s], [N], [N s]
+    bool has_bodies = false;                   // something may press plants
 };
 
 class Laws {

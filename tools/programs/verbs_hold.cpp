@@ -88,8 +88,10 @@ void write_carry(Source& s, const Operation& o) {
 void push(Run& run, const Operation& o) {
     const Standing& plant = plant_of(run, o);
     const frond_vec3 force = xyz(o);
-    run.loads.force += std::abs(force.x) + std::abs(force.y) + std::abs(force.z);
+    const double force_size = std::abs(force.x) + std::abs(force.y) + std::abs(force.z);
+    run.loads.force += force_size;
     for (int i = 0; i < whole(o, "count"); i++) {
+        run.loads.impulse += force_size / number(o, "rate");
         run.check(frond_plant_add_force(plant.handle, node(plant.handle, whole(o, "node")), force));
         run.step(1 / number(o, "rate"));
     }
