@@ -272,7 +272,9 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     plant.view.cage_stale = true;
     const VecX own = cage_places(plant), own_rate = cage_velocities(plant);
     if (by_modes && plant.follow) keep_only_modes(plant);
-    const VecX smooth = cage_places(plant), smooth_rate = cage_velocities(plant);
+    VecX smooth = cage_places(plant);
+    const VecX smooth_rate = cage_velocities(plant);
+    place_pinned_as_held(plant, smooth);
     const StoredEnergy held = stored_energy(plant);
     const bool pins_moved = miss_of_pins(plant) > PINS_STAND * double(plant.size);
     // Plastic states carry over between mechanics of tets, and between those of the chain.

@@ -71,6 +71,24 @@ static bool hold_chain_node(Plant& plant, int chain_node, const PinGroup& group)
     return true;
 }
 
+// Returns the chain node that holds a pinned cage node. One that the ground does not hold may have been pinned while
+// tets moved, and then has no anchor.
+static int chain_node_that_holds(const Plant& plant, size_t node) {
+    return plant.input.foot->pinned[node] ? plant.input.anchor[node] : plant.follow->nearest[node];
+}
+
+void place_pinned_as_held(const Plant& plant, VecX& places) {
+    const Motion& motion = plant.state.motion;
+    if (!plant.follow) return;
+    for (size_t n = 0; n < plant.input.pinned.size(); n++) {
+        if (!plant.input.pinned[n]) continue;
+        const int by = chain_node_that_holds(plant, n);
+        if (!motion.pinned[size_t(2 * by)]) continue;
+        const Vec3 arm = point(plant.follow->modelled, int(n)) - plant.model->chain.nodes[size_t(by)].position;
+        point(places, int(n)) = point(motion.x, 2 * by) + rotation_of<double>(point(motion.x, 2 * by + 1)) * arm;
+    }
+}
+
 static void pin_chain(Plant& plant) {
     std::fill(plant.state.motion.pinned.begin(), plant.state.motion.pinned.end(), uint8_t(0));
     plant.input.pin_springs.clear();
@@ -78,9 +96,7 @@ static void pin_chain(Plant& plant) {
     PinGroup ground;                 // all nodes that the plant stands on
     for (size_t n = 0; n < plant.input.pinned.size(); n++) {
         if (!plant.input.pinned[n]) continue;
-        // A node that the ground does not hold may have been pinned while tets moved, and then has no anchor.
-        add_to_group(plant, int(n),
-                     groups[plant.input.foot->pinned[n] ? plant.input.anchor[n] : plant.follow->nearest[n]]);
+        add_to_group(plant, int(n), groups[chain_node_that_holds(plant, n)]);
         if (plant.input.foot->pinned[n]) add_to_group(plant, int(n), ground);
     }
     // A root with too few pinned nodes stands as the ground does.
