@@ -12,6 +12,8 @@
 
 #include "cage/tet_geometry.hpp"
 #include "core/timer.hpp"
+#include "plant/guard.hpp"
+#include "plant/load_work.hpp"
 #include "plant/plant.hpp"
 #include "solve/node_compliance.hpp"
 #include "solve/one_sided.hpp"
@@ -191,6 +193,35 @@ void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const
     if (velocity_by(plant, stretches, pulls, dv)) plant.state.motion.v += dv;
 }
 
+// Goes only so far by pulls as the cage stores no more than where the solve left it, or where the step began and by the
+// work of loads: between pins or grabs that are too far apart, the linear response of pulls crumples it more in each
+// step.
+void take_back_crumpling(Plant& plant, const VecX& x_free, const VecX& v_free, double h) {
+    constexpr double LEAST = 0.1;   // share of the pulls that is tried [-]
+    constexpr double LIFT = 0.001;  // allowed error, as a share of the energy that lifts the plant by its size [-]
+    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
+    const auto stored_at = [&](const VecX& x) { return row.energy(elements_of(plant), x); };
+    Motion& motion = plant.state.motion;
+    const double free = stored_at(x_free);
+    if (stored_at(motion.x) <= free) return;
+    const VecX way = motion.x - x_free, dv = motion.v - v_free;
+    const double before = stored_at(plant.step.x_good), error = LIFT * lifting_energy(plant);
+    const auto may_be_stored = [&] {
+        const double stored = stored_at(motion.x);
+        if (stored <= std::max(free, before) + error) return true;
+        const LoadWork work = work_of_loads(plant, h);
+        const double given = work.forces + work.grabs + work.air + work_of_weight(plant, way_of_step(plant));
+        return stored <= before + given + error;
+    };
+    double share = 1;
+    while (share > 0 && !may_be_stored()) {
+        share = share > LEAST ? share / 2 : 0;
+        motion.x = x_free + share * way;
+        motion.v = v_free + share * dv;
+    }
+    plant.state.fibre_force *= share;
+}
+
 // Pulls are internal forces, so the integrator keeps its history: started anew by implicit Euler after each step with
 // pulls, it would damp the vibration of a plant whose leaves are taut. Only the rates of generalized alpha at the
 // step's end do not include them.
@@ -243,6 +274,7 @@ static void pull_back(Plant& plant, double h) {
     const Eigen::Index count = Eigen::Index(rows.size());
     const bool was_shaken = plant.state.motion.history.shaken;
     const double reach = reach_of(*plant.step.workspace);
+    const VecX x_free = plant.state.motion.x, v_free = plant.state.motion.v;
     VecX pulls = VecX::Zero(count), softness(count), dv;  // impulses [N s]; a row's stretch by its impulse [m/(N s)]
     for (Eigen::Index i = 0; i < count; i++) softness[i] = 1 / (reach * rows[size_t(i)].stiffness);
     std::vector<Stretch> stretches = stretches_of(rows, plant.state.motion.x);
@@ -267,6 +299,7 @@ static void pull_back(Plant& plant, double h) {
     }
     plant.state.fibre_force = spread(plant, stretches, pulls) / reach;
     stop_lengthening(plant, stretches, W, pulls);
+    take_back_crumpling(plant, x_free, v_free, h);
     go_on_from_here(plant.state.motion, was_shaken);
 }
 
