@@ -180,7 +180,7 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     History& history = motion.history;
     VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
     const bool is_wound = (step.wound >> lane & 1) != 0;
-    const bool is_asked = may_be_off || is_wound || goes_on || step.inverted[size_t(lane)] > 0;
+    const bool is_asked = may_be_off || is_wound || goes_on || may_inflate(plant) || step.inverted[size_t(lane)] > 0;
     if (is_asked) {
         plant.step.x_good = motion.x;
         plant.step.v_good = motion.v;

@@ -31,6 +31,9 @@ double work_of_weight(const Plant& plant, const VecX& way);
 // Returns the energy that lifts the plant by its own size [J].
 double lifting_energy(const Plant& plant);
 
+// Returns whether what turns is inflated by the integrator's forces at the start of the step, in a cage: rods are
+// retracted.
+bool may_inflate(const Plant& plant);
 // Sets is_off_course after a solve over h [s] from x_good and v_good, and returns whether the plant may go there: it
 // did not run away, nor gain energy that the loads and contacts cannot have given. What stayed on its course is not
 // asked for its energy, unless pins or contacts push it, it starts anew, as with forces of the host, or the step has

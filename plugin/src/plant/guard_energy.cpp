@@ -64,9 +64,13 @@ static bool leads_springs(const Plant& plant) {
     return std::any_of(plant.input.pin_springs.begin(), plant.input.pin_springs.end(), is_led);
 }
 
+bool may_inflate(const Plant& plant) {
+    return !plant.follow && plant.input.settings.integrator == FROND_INTEGRATOR_IMPLICIT_EULER;
+}
+
 bool keeps_course(Plant& plant, double h) {
     plant.step.is_off_course = ends_off_course(plant, h);
-    const bool is_asked = plant.step.is_off_course || plant.step.starts_anew || is_pushed(plant) ||
+    const bool is_asked = plant.step.is_off_course || plant.step.starts_anew || is_pushed(plant) || may_inflate(plant) ||
                           integrator(plant.step.settings.integrator).has_stages ||
                           is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good) || leads_springs(plant);
     return !(is_asked && has_energy_from_nowhere(plant, h)) && !has_run_away(plant);
