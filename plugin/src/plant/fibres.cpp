@@ -266,7 +266,7 @@ bool are_slack(Plant& plant) {
 // Corrects positions first, in rounds, since pulls turn the fibres, which is of second order in the displacement.
 // Velocities are corrected separately: where a fibre becomes taut, bdf2 would have it rebound, and faster in the next
 // steps.
-static void pull_back(Plant& plant, double h) {
+static void pull_back(Plant& plant, double h, bool is_step) {
     update_chain(plant);
     if (plant.state.is_entangled || !plant.state.fibre_give.empty()) let_give(plant, h);
     const std::vector<Row> rows = find_rows(plant);
@@ -299,15 +299,15 @@ static void pull_back(Plant& plant, double h) {
     }
     plant.state.fibre_force = spread(plant, stretches, pulls) / reach;
     stop_lengthening(plant, stretches, W, pulls);
-    take_back_crumpling(plant, x_free, v_free, h);
+    if (is_step) take_back_crumpling(plant, x_free, v_free, h);
     go_on_from_here(plant.state.motion, was_shaken);
 }
 
-void hold_lengths(Plant& plant, double h) {
+void hold_lengths(Plant& plant, double h, bool is_step) {
     plant.state.fibre_force.resize(0);
     if (!plant.step.has_fibres || !plant.fibres || !plant.report.ok) return;
     const Timer timer;
-    pull_back(plant, h);
+    pull_back(plant, h, is_step);
     plant.ms_fibres += timer.ms();
     plant.report.ms_solve += timer.ms();
 }

@@ -29,6 +29,7 @@ bool are_slack(Plant& plant);
 
 // Ends a solve over h [s], or a part of a step: pulls back what it stretched; does nothing if all fibres are slack. A
 // step in parts needs it after each: what all of them stretched is too much for the impulses of the last.
-void hold_lengths(Plant& plant, double h);
+// `is_step`: of the host's, from x_good; else who calls looks at the energy.
+void hold_lengths(Plant& plant, double h, bool is_step = true);
 
 }  // namespace frond

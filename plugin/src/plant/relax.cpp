@@ -64,7 +64,7 @@ void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
         motion.v.setZero();
         plant.report = solve_step(*plant.step.workspace, settings, loads, STEP, motion);
         ok = plant.report.ok;
-        hold_lengths(plant, STEP);
+        hold_lengths(plant, STEP, false);
         const double next = stored_energy(plant).potential;
         if (!(next < now) && !settings.careful) {
             // One solve overshoots: a search does not.
