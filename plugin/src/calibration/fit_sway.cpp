@@ -18,6 +18,9 @@
 
 namespace frond {
 
+// Share of a mode's elastic energy with which an organ carries it [-].
+static constexpr double MUCH = 0.1;
+
 // Returns for each organ whether another one grows out of it.
 static std::vector<char> bearing_organs(const Model& model) {
     std::vector<char> bears(model.organs.size(), 0);
@@ -47,7 +50,6 @@ static VecX energies_of(const Model& model, const RodElements& elements, const V
 }
 
 RodSways find_sways(const Model& model, const RodElements& elements, frond_mechanics which) {
-    constexpr double MUCH = 0.1;  // share of a mode's elastic energy [-]
     RodSways sways;
     sways.carries.assign(model.organs.size(), 0);
     const std::vector<char> bears = bearing_organs(model);
@@ -87,6 +89,19 @@ static VecX energies_of(const TetElements& elements, frond_mechanics which, cons
     return energies;
 }
 
+// Keeps the moduli of organs that carry neither a mode of the rods nor one of the cage.
+static void keep_others(const Model& model, const std::vector<char>& carry_rods, MatX& slope) {
+    std::vector<char> carry = carry_rods;
+    for (Eigen::Index i = 0; i < slope.rows(); i++) {
+        VecX energies = VecX::Zero(Eigen::Index(carry.size()));
+        for (Eigen::Index e = 0; e < slope.cols(); e++) energies[model.cage.tet_organ[size_t(e)]] += slope(i, e);
+        for (size_t o = 0; o < carry.size(); o++)
+            if (energies[Eigen::Index(o)] > MUCH * energies.sum()) carry[o] = 1;
+    }
+    for (Eigen::Index e = 0; e < slope.cols(); e++)
+        if (!carry[size_t(model.cage.tet_organ[size_t(e)])]) slope.col(e).setZero();
+}
+
 SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanics which, const VecX& x,
                  BlockFactor& stiffness, const std::vector<uint8_t>& still, const RodSways& rods, const VecX& done) {
     constexpr double FARTHEST = 1.8;      // total change of a logarithm [-]
@@ -102,8 +117,7 @@ SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanic
         errors[Eigen::Index(i)] = frond::log(rods.square[i] / sway.square);
         slope.row(Eigen::Index(i)) = energies_of(elements, which, x, sway.shape).transpose() / sway.square;
     }
-    for (size_t e = 0; e < elements.tets.size(); e++)
-        if (!rods.carries[size_t(model.cage.tet_organ[e])]) slope.col(Eigen::Index(e)).setZero();
+    keep_others(model, rods.carries, slope);
     if (!errors.allFinite() || !slope.allFinite()) return {};
     return {errors.lpNorm<Eigen::Infinity>(), least_change(slope, errors, (-FARTHEST - done.array()).max(-LARGEST_STEP),
                                                            (FARTHEST - done.array()).min(LARGEST_STEP), RIGID)};
