@@ -8,6 +8,7 @@
 #include "calibration/fit_sway.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "calibration/least_change.hpp"
 #include "calibration/static_stiffness.hpp"
@@ -20,6 +21,9 @@ namespace frond {
 
 // Share of a mode's elastic energy with which an organ carries it [-].
 static constexpr double MUCH = 0.1;
+// The same for an organ that carries only a mode of the cage: corn's tassel has 0.24. With leaves of 0.13, which happen
+// to be in resonance with its stem, each change brought others into resonance.
+static constexpr double MUCH_OF_CAGE = 0.16;
 
 // Returns for each organ whether another one grows out of it.
 static std::vector<char> bearing_organs(const Model& model) {
@@ -49,6 +53,13 @@ static VecX energies_of(const Model& model, const RodElements& elements, const V
     return energies;
 }
 
+// Returns the momentum of a mode at a velocity of one. Of a chain every second node is a rotation.
+static Vec3 momentum_of(const VecX& mass, const VecX& shape, int nodes_per_place) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < int(mass.size()); i += nodes_per_place) sum += mass[i] * point(shape, i);
+    return sum;
+}
+
 RodSways find_sways(const Model& model, const RodElements& elements, frond_mechanics which) {
     RodSways sways;
     sways.carries.assign(model.organs.size(), 0);
@@ -57,11 +68,12 @@ RodSways find_sways(const Model& model, const RodElements& elements, frond_mecha
     const std::vector<uint8_t> still = still_nodes(model, elements, true);
     StaticStiffness stiffness(elements.pattern);
     if (!stiffness.set(elements, still, row, Tangent::exact, elements.modelled)) return sways;
-    const std::array<Sway, 2> found =
-        first_sways(stiffness.factor, row.masses(elements, FROND_MASS_LUMPED).node, still);
+    const VecX mass = row.masses(elements, FROND_MASS_LUMPED).node;
+    const std::array<Sway, 2> found = first_sways(stiffness.factor, mass, still);
     for (size_t i = 0; i < found.size(); i++) {
         if (found[i].shape.size() == 0) continue;
         sways.square[i] = found[i].square;
+        sways.momentum[i] = momentum_of(mass, found[i].shape, 2);
         const VecX energies = sways.energies[i] = energies_of(model, elements, found[i].shape);
         for (size_t o = 0; o < sways.carries.size(); o++)
             if (bears[o] && energies[Eigen::Index(o)] > MUCH * energies.sum()) sways.carries[o] = 1;
@@ -96,10 +108,20 @@ static void keep_others(const Model& model, const std::vector<char>& carry_rods,
         VecX energies = VecX::Zero(Eigen::Index(carry.size()));
         for (Eigen::Index e = 0; e < slope.cols(); e++) energies[model.cage.tet_organ[size_t(e)]] += slope(i, e);
         for (size_t o = 0; o < carry.size(); o++)
-            if (energies[Eigen::Index(o)] > MUCH * energies.sum()) carry[o] = 1;
+            if (energies[Eigen::Index(o)] > MUCH_OF_CAGE * energies.sum()) carry[o] = 1;
     }
     for (Eigen::Index e = 0; e < slope.cols(); e++)
         if (!carry[size_t(model.cage.tet_organ[size_t(e)])]) slope.col(e).setZero();
+}
+
+// Brings a cage's modes into the order of the rods': each to the one that moves the plant in its direction. The order
+// of their frequencies is no guide, since a cage's slower sway may be the one across.
+static void pair_with(const RodSways& rods, const VecX& mass, std::array<Sway, 2>& sways) {
+    if (sways[0].shape.size() == 0 || sways[1].shape.size() == 0) return;
+    const Vec3 first = momentum_of(mass, sways[0].shape, 1), second = momentum_of(mass, sways[1].shape, 1);
+    const double kept = std::abs(first.dot(rods.momentum[0])) + std::abs(second.dot(rods.momentum[1]));
+    const double swapped = std::abs(first.dot(rods.momentum[1])) + std::abs(second.dot(rods.momentum[0]));
+    if (swapped > kept) std::swap(sways[0], sways[1]);
 }
 
 SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanics which, const VecX& x,
@@ -108,7 +130,8 @@ SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanic
     constexpr double LARGEST_STEP = 0.7;  // change of a logarithm [-]
     constexpr double RIGID = 0.01;        // weight of a change relative to an error [-]
     const VecX mass = mechanics(which, elements.nodes.order).masses(elements, FROND_MASS_LUMPED).node;
-    const std::array<Sway, 2> sways = first_sways(stiffness, mass, still);
+    std::array<Sway, 2> sways = first_sways(stiffness, mass, still);
+    pair_with(rods, mass, sways);
     VecX errors = VecX::Zero(Eigen::Index(sways.size()));
     MatX slope = MatX::Zero(errors.size(), Eigen::Index(elements.tets.size()));
     for (size_t i = 0; i < sways.size(); i++) {

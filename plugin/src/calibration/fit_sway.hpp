@@ -8,8 +8,9 @@ namespace frond {
 // The first modes of rods or of a chain of springs.
 struct RodSways {
     std::array<double, 2> square = {};  // squares of the angular frequencies, the slower one first [1/s^2]; 0: none
-    std::array<VecX, 2> energies;       // twice the elastic energy of each organ at a kinetic energy of a half [1/s^2]
-    std::vector<char> carries;  // one per organ: whether others grow out of it and its bending is much of a mode
+    std::array<Vec3, 2> momentum = {Vec3::Zero(), Vec3::Zero()};  // of the plant at a velocity of one [sqrt kg]
+    std::array<VecX, 2> energies;  // twice the elastic energy of each organ at a kinetic energy of a half [1/s^2]
+    std::vector<char> carries;     // one per organ: whether others grow out of it and its bending is much of a mode
 };
 struct RodElements;
 RodSways find_sways(const Model& model, const RodElements& elements, frond_mechanics which);
