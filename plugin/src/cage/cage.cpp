@@ -134,7 +134,7 @@ void make_cage(const Surface& surface, const Topology& topology, const std::vect
         find_vertex_copies(surface, draft);
         bind_vertices(surface, draft, embedding);
         smooth_cage(surface, options, draft, embedding);
-        fill_cage(triangle_organ, organ, draft);
+        fill_cage(organ, draft);
         FROND_ASSERT(have_volume(cage));
         FROND_ASSERT(embedding.tet.size() == surface.positions.size());
         FROND_ASSERT(cage.tet_organ.size() == cage.tets.size() && cage.tet_fill.size() == cage.tets.size());

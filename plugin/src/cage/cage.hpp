@@ -5,11 +5,19 @@
 
 namespace frond {
 
+// What a tet holds of one organ.
+struct Tissue {
+    int tet, organ;
+    double volume;  // [m^3]
+};
+
 struct Cage {
-    std::vector<Vec3> nodes;       // rest positions [m]
-    std::vector<Tet> tets;         // positive volume
-    std::vector<int> tet_organ;    // index into Model::organs
-    std::vector<double> tet_fill;  // share of the tet's volume that is plant [-], > 0
+    std::vector<Vec3> nodes;         // rest positions [m]
+    std::vector<Tet> tets;           // positive volume
+    std::vector<int> tet_organ;      // index into Model::organs: the organ that stiffens the tet most
+    std::vector<double> tet_fill;    // share of the tet's volume that is plant [-], > 0
+    std::vector<Tissue> tissue;      // by tet, what each organ has there; empty: all of a tet is of tet_organ
+    std::vector<Vec3> organ_centre;  // centre of each organ's tissue as the surface shows it [m]; as many as organs
 };
 
 // Attachment of each surface vertex: position = sum of weights[k] * node(tet[k]). Weights add up to one; they are all

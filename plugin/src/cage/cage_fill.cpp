@@ -1,35 +1,29 @@
-// Fill: how much of each tet is plant, and of which organ. A sheet gives each tet its area in the tet times its
+// Fill: how much of each tet is plant, and of which organs. A sheet gives each tet its area in the tet times its
 // thickness. The volume that a closed patch encloses is cut at the cells exactly, by the divergence theorem along one
 // axis, and distributed over the tets of a cell. The sum over all tets is the plant's volume.
 #include <algorithm>
 
-#include "cage/cage_parts.hpp"
+#include "cage/cage_filler.hpp"
+#include "cage/shift_centre.hpp"
 
 namespace frond {
 
-// Least fill of a tet, as a share of the mean fill of its copy, so that no node is without mass.
-static constexpr double LEAST_SHARE = 0.1;
 // Largest area that is added as a whole, as a share of a cell's face.
 static constexpr double LARGEST_SAMPLE = 1.0 / 32;
 
 namespace {
-
-struct Filler {
-    const std::vector<int>& triangle_organ;
-    const std::vector<Organ>& organs;
-    Draft& draft;
-    std::vector<double> volume;                                       // volume of each tet [m^3]
-    std::vector<double> tissue;                                       // plant in each tet [m^3]
-    std::vector<double> wall;                                         // area of closed patches in each tet [m^2]
-    std::vector<std::vector<std::pair<int, double>>> organ_strength;  // Young's modulus times tissue [J]
-    std::vector<double> left;  // tissue of each patch that is not placed yet [m^3]
-};
 
 // Part of a closed patch's triangle in one cell, which adds to the volume in that cell and in those below it.
 struct Slice {
     CellIndex cell;
     double area;    // projected along z, positive where the outside faces up [m^2]
     double volume;  // between it and its cell's floor [m^3]
+};
+
+// A closed patch cut at the cells.
+struct Solid {
+    std::vector<Slice> slices;
+    std::vector<std::pair<CellIndex, int>> copies;  // those that carry it, by cell
 };
 
 }  // namespace
@@ -52,19 +46,15 @@ static void add_area(Filler& filler, int triangle, int copy, double area, const 
     const size_t tet = size_t(tet_at(filler, copy, place));
     const size_t number = size_t(filler.draft.patches.triangle_patch[size_t(triangle)]);
     const Patch& patch = filler.draft.patches.patches[number];
-    if (patch.filled)
-        filler.wall[tet] += area;
-    else if (patch.area > 0)
-        filler.tissue[tet] += area * patch.tissue / patch.area;
-    const int organ = filler.triangle_organ[size_t(triangle)];
-    const double depth = patch.area > 0 ? patch.tissue / patch.area : 0;
-    const double strength = area * depth * filler.organs[size_t(organ)].material.young;
-    for (auto& [known, sum] : filler.organ_strength[tet])
-        if (known == organ) {
-            sum += strength;
-            return;
-        }
-    filler.organ_strength[tet].push_back({organ, strength});
+    const double tissue = patch.area > 0 ? area * patch.tissue / patch.area : 0;
+    Held& held = filler.of(tet, patch.organ);
+    held.strength += tissue * filler.organs[size_t(patch.organ)].material.young;
+    if (patch.filled) {
+        held.wall += area;
+        return;
+    }
+    held.tissue += tissue;
+    filler.tissue[tet] += tissue;
 }
 
 // Splits a triangle until its parts are small, and adds them.
@@ -92,14 +82,15 @@ static void add_slices(const Lattice& lattice, const Polygon& polygon, std::vect
     });
 }
 
-// Adds the area of every triangle to the tets, and lists the slices of closed patches.
-static void spread_surface(Filler& filler, std::vector<std::vector<Slice>>& slices) {
+// Adds the area of every triangle to the tets, and cuts closed patches at the cells.
+static void spread_surface(Filler& filler, std::vector<Solid>& solids) {
     const Draft& draft = filler.draft;
     const Lattice& lattice = draft.voxels.lattice;
     const double largest = LARGEST_SAMPLE * lattice.cell_size * lattice.cell_size;
     for (int t = 0; t < int(draft.topology.triangles.size()); ++t) {
         if (draft.patches.repeated[size_t(t)]) continue;
         const size_t number = size_t(draft.patches.triangle_patch[size_t(t)]);
+        const bool filled = draft.patches.patches[number].filled;
         Triangle corner = draft.topology.triangles[size_t(t)];
         if (draft.patches.flipped[size_t(t)]) std::swap(corner[1], corner[2]);
         const Polygon polygon =
@@ -111,42 +102,75 @@ static void spread_surface(Filler& filler, std::vector<std::vector<Slice>>& slic
             const int entry = found < 0 ? -1 : draft.voxels.find_entry(found, t);
             if (entry >= 0) last = draft.copies.entry_copy[size_t(entry)];
             if (last < 0) return;
+            if (filled && entry >= 0) solids[number].copies.push_back({cell, last});
             for (int k = 2; k < part.count; ++k)
                 add_parts(filler, t, last, part.corners[0], part.corners[size_t(k - 1)], part.corners[size_t(k)],
                           largest, 3);
         });
-        if (draft.patches.patches[number].filled) add_slices(lattice, polygon, slices[number]);
+        if (filled) add_slices(lattice, polygon, solids[number].slices);
     }
+}
+
+// Lists the copies that carry each closed patch, with those inside it, and closes its holes.
+static void complete_solids(const Draft& draft, std::vector<Solid>& solids) {
+    const std::vector<Patch>& patches = draft.patches.patches;
+    for (size_t copy = 0; copy < draft.copies.cell.size(); ++copy) {
+        const size_t patch = size_t(draft.copies.patch[copy]);
+        if (patches[patch].filled) solids[patch].copies.push_back({draft.copies.cell[copy], int(copy)});
+    }
+    for (size_t p = 0; p < solids.size(); ++p) {
+        auto& copies = solids[p].copies;
+        std::sort(copies.begin(), copies.end());
+        copies.erase(std::unique(copies.begin(), copies.end()), copies.end());
+        if (!patches[p].filled) continue;
+        for (const auto& cap : patches[p].caps)
+            add_slices(draft.voxels.lattice, polygon_of(cap[0], cap[1], cap[2]), solids[p].slices);
+    }
+}
+
+static double wall_in(const Filler& filler, int copy, int organ) {
+    double sum = 0;
+    for (int tet = copy * TETS_PER_COPY; tet < (copy + 1) * TETS_PER_COPY; ++tet)
+        sum += filler.wall_of(size_t(tet), organ);
+    return sum;
 }
 
 // Distributes a volume over the tets of a copy: in proportion to their walls if small, evenly if it fills the cell.
-static void fill_copy(Filler& filler, int copy, size_t patch, double amount) {
-    double whole = 0, walls = 0;
-    for (int tet = copy * TETS_PER_COPY; tet < (copy + 1) * TETS_PER_COPY; ++tet) {
-        whole += filler.volume[size_t(tet)];
-        walls += filler.wall[size_t(tet)];
-    }
+static void fill_copy(Filler& filler, int copy, int organ, double amount) {
+    const double walls = wall_in(filler, copy, organ);
+    double whole = 0;
+    for (int tet = copy * TETS_PER_COPY; tet < (copy + 1) * TETS_PER_COPY; ++tet) whole += filler.volume[size_t(tet)];
     const double evenly = walls > 0 ? std::min(1.0, amount / whole) : 1;
-    for (int tet = copy * TETS_PER_COPY; tet < (copy + 1) * TETS_PER_COPY; ++tet) {
-        const double share = evenly * filler.volume[size_t(tet)] / whole +
-                             (walls > 0 ? (1 - evenly) * filler.wall[size_t(tet)] / walls : 0);
-        const double room = std::max(0.0, filler.volume[size_t(tet)] - filler.tissue[size_t(tet)]);
-        const double taken = std::min(room, share * amount);
-        filler.tissue[size_t(tet)] += taken;
-        filler.left[patch] += share * amount - taken;
+    for (size_t tet = size_t(copy) * TETS_PER_COPY; tet < size_t(copy + 1) * TETS_PER_COPY; ++tet) {
+        const double share =
+            evenly * filler.volume[tet] / whole + (walls > 0 ? (1 - evenly) * filler.wall_of(tet, organ) / walls : 0);
+        const double taken = std::min(filler.room(tet), share * amount);
+        filler.add(tet, organ, taken);
+        filler.left[size_t(organ)] += share * amount - taken;
     }
 }
 
+// Distributes a volume in a cell over the copies that carry its patch, in proportion to their walls.
+static void fill_cell(Filler& filler, const Solid& solid, const CellIndex& cell, int organ, double amount) {
+    const auto begin = std::lower_bound(solid.copies.begin(), solid.copies.end(), std::make_pair(cell, -1));
+    auto end = begin;
+    double walls = 0;
+    for (; end != solid.copies.end() && end->first == cell; ++end) walls += wall_in(filler, end->second, organ);
+    if (begin == end) filler.left[size_t(organ)] += amount;
+    for (auto at = begin; at != end; ++at)
+        fill_copy(filler, at->second, organ,
+                  amount * (walls > 0 ? wall_in(filler, at->second, organ) / walls : 1 / double(end - begin)));
+}
+
 // Finds the volume that a closed patch encloses in each cell, by summing slices column by column from the top.
-static void fill_skin(Filler& filler, size_t patch, std::vector<Slice>& slices,
-                      const std::vector<std::pair<CellIndex, int>>& copies_by_cell) {
+static void fill_solid(Filler& filler, const Patch& patch, Solid& solid) {
     const double cell_size = filler.draft.voxels.lattice.cell_size;
-    const double full = filler.draft.patches.patches[patch].tissue / filler.draft.patches.patches[patch].volume;
+    const double full = patch.tissue / patch.volume;
+    std::vector<Slice>& slices = solid.slices;
     std::stable_sort(slices.begin(), slices.end(), [](const Slice& a, const Slice& b) {
         if (a.cell[0] != b.cell[0]) return a.cell[0] < b.cell[0];
         return a.cell[1] != b.cell[1] ? a.cell[1] < b.cell[1] : a.cell[2] > b.cell[2];
     });
-    std::vector<int> here;
     double above = 0;
     for (size_t i = 0; i < slices.size();) {
         const bool new_column =
@@ -163,130 +187,83 @@ static void fill_skin(Filler& filler, size_t patch, std::vector<Slice>& slices,
         const int end = goes_on ? slices[i].cell[2] : first[2] - 1;
         for (int z = first[2]; z > end; --z) {
             const double amount = full * (z == first[2] ? volume : above * cell_size * cell_size * cell_size);
-            if (!(amount > 0)) {
-                filler.left[patch] += amount;
-                continue;
-            }
-            const CellIndex cell = {first[0], first[1], z};
-            here.clear();
-            const auto begin = std::lower_bound(copies_by_cell.begin(), copies_by_cell.end(), std::make_pair(cell, -1));
-            for (auto k = begin; k != copies_by_cell.end() && k->first == cell; ++k)
-                if (filler.draft.copies.patch[size_t(k->second)] == int(patch)) here.push_back(k->second);
-            if (here.empty()) filler.left[patch] += amount;
-            for (int copy : here) fill_copy(filler, copy, patch, amount / double(here.size()));
+            if (amount > 0)
+                fill_cell(filler, solid, {first[0], first[1], z}, patch.organ, amount);
+            else
+                filler.left[size_t(patch.organ)] += amount;
         }
-    }
-}
-
-// Places leftover tissue wherever tets have free volume, first in its own patch, then anywhere.
-static void place_leftovers(Filler& filler) {
-    const Draft& draft = filler.draft;
-    std::vector<std::vector<int>> patch_tets(filler.left.size());
-    for (size_t tet = 0; tet < filler.tissue.size(); ++tet)
-        patch_tets[size_t(draft.copies.patch[tet / TETS_PER_COPY])].push_back(int(tet));
-    double rest = 0;
-    const auto place = [&](const std::vector<int>& tets, double amount) {
-        double room = 0, held = 0;
-        for (int tet : tets) {
-            room += std::max(0.0, filler.volume[size_t(tet)] - filler.tissue[size_t(tet)]);
-            held += filler.tissue[size_t(tet)];
-        }
-        // A negative rest, from rounding or from a patch that intersects itself, reduces the tissue already there.
-        const double taken = std::clamp(amount, -0.9 * held, room);
-        for (int tet : tets) {
-            double& tissue = filler.tissue[size_t(tet)];
-            if (taken > 0)
-                tissue += taken * std::max(0.0, filler.volume[size_t(tet)] - tissue) / room;
-            else if (taken < 0)
-                tissue += taken * tissue / held;
-        }
-        return amount - taken;
-    };
-    for (size_t tet = 0; tet < filler.tissue.size(); ++tet) {
-        const double over = filler.tissue[tet] - filler.volume[tet];
-        if (over <= 0) continue;
-        filler.tissue[tet] = filler.volume[tet];
-        filler.left[size_t(draft.copies.patch[tet / TETS_PER_COPY])] += over;
-    }
-    std::vector<int> all;
-    for (size_t p = 0; p < patch_tets.size(); ++p)
-        rest += filler.left[p] != 0 ? place(patch_tets[p], filler.left[p]) : 0;
-    for (size_t tet = 0; tet < filler.tissue.size(); ++tet) all.push_back(int(tet));
-    if (rest != 0) place(all, rest);
-}
-
-// Gives nearly empty tets a least fill, taken from all other tets.
-static void level(Filler& filler) {
-    const Draft& draft = filler.draft;
-    double total = 0, whole = 0;
-    for (size_t tet = 0; tet < filler.tissue.size(); ++tet) {
-        total += filler.tissue[tet];
-        whole += filler.volume[tet];
-    }
-    std::vector<double> least(filler.tissue.size(), 0);
-    for (size_t first = 0; first < filler.tissue.size(); first += TETS_PER_COPY) {
-        double tissue = 0, volume = 0;
-        for (size_t tet = first; tet < first + TETS_PER_COPY; ++tet) {
-            tissue += filler.tissue[tet];
-            volume += filler.volume[tet];
-        }
-        const double share = LEAST_SHARE * std::max(tissue / volume, LEAST_SHARE * total / whole);
-        for (size_t tet = first; tet < first + TETS_PER_COPY; ++tet) least[tet] = share * filler.volume[tet];
-    }
-    double added = 0, above = 0;
-    for (size_t tet = 0; tet < filler.tissue.size(); ++tet) {
-        added += std::max(0.0, least[tet] - filler.tissue[tet]);
-        above += std::max(0.0, filler.tissue[tet] - least[tet]);
-    }
-    for (size_t tet = 0; tet < filler.tissue.size(); ++tet) {
-        double& tissue = filler.tissue[tet];
-        tissue = tissue <= least[tet] ? least[tet] : tissue - std::min(1.0, added / above) * (tissue - least[tet]);
-        draft.cage.tet_fill[tet] = std::clamp(tissue / filler.volume[tet], 1e-9, 1.0);
     }
 }
 
 // Assigns each tet to the organ that adds most to its stiffness: a stem continues through cells that are full of
 // leaves.
-static void choose_organs(Filler& filler) {
-    const Draft& draft = filler.draft;
-    for (size_t tet = 0; tet < filler.organ_strength.size(); ++tet) {
-        int organ = draft.patches.patches[size_t(draft.copies.patch[tet / TETS_PER_COPY])].organ;
-        double most = 0;
-        for (const auto& [other, strength] : filler.organ_strength[tet])
-            if (strength > most) {
-                most = strength;
-                organ = other;
-            }
-        draft.cage.tet_organ[tet] = organ;
+static int strongest_organ(const Filler& filler, size_t tet) {
+    int organ = filler.main_organ(tet);
+    double most = 0;
+    for (const Held& held : filler.held[tet])
+        if (held.strength > most) {
+            most = held.strength;
+            organ = held.organ;
+        }
+    return organ;
+}
+
+static void write_tissue(const Filler& filler, Cage& cage) {
+    constexpr double LEAST = 1e-9;  // fill of a tet whose organs have no tissue at all
+    for (size_t tet = 0; tet < filler.volume.size(); ++tet) {
+        cage.tet_organ.push_back(strongest_organ(filler, tet));
+        const double least = LEAST * filler.volume[tet];
+        cage.tet_fill.push_back(std::clamp(filler.tissue[tet] / filler.volume[tet], LEAST, 1.0));
+        if (filler.tissue[tet] <= least) cage.tissue.push_back({int(tet), cage.tet_organ.back(), least});
+        if (filler.tissue[tet] <= least) continue;
+        for (const Held& held : filler.held[tet])
+            if (held.tissue > 0) cage.tissue.push_back({int(tet), held.organ, held.tissue});
     }
 }
 
-void fill_cage(const std::vector<int>& triangle_organ, const std::vector<Organ>& organs, Draft& draft) {
+// Brings the centre of each organ's tissue, which a tet carries at its own centre, to where the surface shows it.
+static void centre_tissue(const std::vector<Patch>& patches, size_t organ_count, Cage& cage) {
+    std::vector<double> volume(organ_count, 0.0);
+    cage.organ_centre.assign(organ_count, Vec3::Zero());
+    for (const Patch& patch : patches) {
+        volume[size_t(patch.organ)] += patch.tissue;
+        cage.organ_centre[size_t(patch.organ)] += patch.tissue * patch.centre;
+    }
+    std::vector<std::vector<Tissue*>> parts(organ_count);
+    for (Tissue& part : cage.tissue) parts[size_t(part.organ)].push_back(&part);
+    std::vector<Vec3> places;
+    std::vector<double> volumes;
+    for (size_t o = 0; o < organ_count; ++o) {
+        if (!(volume[o] > 0)) continue;
+        cage.organ_centre[o] /= volume[o];
+        places.clear();
+        volumes.clear();
+        for (const Tissue* part : parts[o]) {
+            places.push_back(tet_centre(cage.nodes, cage.tets[size_t(part->tet)]));
+            volumes.push_back(part->volume);
+        }
+        shift_centre(places, cage.organ_centre[o], volumes);
+        for (size_t i = 0; i < volumes.size(); ++i) parts[o][i]->volume = volumes[i];
+    }
+}
+
+void fill_cage(const std::vector<Organ>& organs, Draft& draft) {
     const size_t count = draft.cage.tets.size();
-    Filler filler{triangle_organ, organs, draft, {}, {}, {}, {}, {}};
+    Filler filler{organs, draft, {}, {}, {}, {}};
     for (const Tet& tet : draft.cage.tets) filler.volume.push_back(tet_volume(draft.cage.nodes, tet));
     filler.tissue.assign(count, 0);
-    filler.wall.assign(count, 0);
-    filler.organ_strength.resize(count);
-    filler.left.assign(draft.patches.patches.size(), 0);
-    draft.cage.tet_fill.assign(count, 0);
-    draft.cage.tet_organ.assign(count, 0);
+    filler.held.resize(count);
+    filler.left.assign(organs.size(), 0);
 
-    std::vector<std::vector<Slice>> slices(draft.patches.patches.size());
-    spread_surface(filler, slices);
-    std::vector<std::pair<CellIndex, int>> copies_by_cell;
-    for (size_t copy = 0; copy < draft.copies.cell.size(); ++copy)
-        copies_by_cell.push_back({draft.copies.cell[copy], int(copy)});
-    std::sort(copies_by_cell.begin(), copies_by_cell.end());
-    for (size_t p = 0; p < slices.size(); ++p) {
-        if (!draft.patches.patches[p].filled) continue;
-        for (const auto& cap : draft.patches.patches[p].caps)
-            add_slices(draft.voxels.lattice, polygon_of(cap[0], cap[1], cap[2]), slices[p]);
-        fill_skin(filler, p, slices[p], copies_by_cell);
-    }
+    std::vector<Solid> solids(draft.patches.patches.size());
+    spread_surface(filler, solids);
+    complete_solids(draft, solids);
+    for (size_t p = 0; p < solids.size(); ++p)
+        if (draft.patches.patches[p].filled) fill_solid(filler, draft.patches.patches[p], solids[p]);
     place_leftovers(filler);
-    level(filler);
-    choose_organs(filler);
+    level_tissue(filler);
+    write_tissue(filler, draft.cage);
+    centre_tissue(draft.patches.patches, organs.size(), draft.cage);
 }
 
 }  // namespace frond

@@ -29,7 +29,7 @@ bool dihedral_cosines(const std::array<Vec3, 4>& corners, double& of_smallest, d
 double choose_cell_size(const Topology& topology, double offset);
 // Moves the nodes towards the surface; keeps every vertex in a tet.
 void smooth_cage(const Surface& surface, const CageOptions& options, Draft& draft, Embedding& embedding);
-// Sets tet_organ and tet_fill.
-void fill_cage(const std::vector<int>& triangle_organ, const std::vector<Organ>& organs, Draft& draft);
+// Sets tet_organ, tet_fill and tissue.
+void fill_cage(const std::vector<Organ>& organs, Draft& draft);
 
 }  // namespace frond

@@ -170,15 +170,25 @@ static void measure(const Topology& topology, const std::vector<int>& members, c
     // The volume is computed about a point nearby, for precision.
     const Vec3 origin = topology.points[size_t(topology.triangles[size_t(members[0])][0])];
     double volume = 0, area = 0;
+    Vec3 of_volume = Vec3::Zero(), of_area = of_volume;  // moments
+    const auto enclose = [&](double part, const Vec3& corners) {
+        volume += part;
+        of_volume += part * corners / 4;
+    };
     for (int t : members) {
         if (patches.repeated[size_t(t)]) continue;
         const Triangle& corner = topology.triangles[size_t(t)];
         const Vec3 a = topology.points[size_t(corner[0])] - origin, b = topology.points[size_t(corner[1])] - origin,
                    c = topology.points[size_t(corner[2])] - origin;
-        volume += (patches.flipped[size_t(t)] ? -1 : 1) * a.dot(b.cross(c)) / 6;
-        area += 0.5 * (b - a).cross(c - a).norm();
+        const double own = 0.5 * (b - a).cross(c - a).norm();
+        enclose((patches.flipped[size_t(t)] ? -1 : 1) * a.dot(b.cross(c)) / 6, a + b + c);
+        area += own;
+        of_area += own * (a + b + c) / 3;
     }
-    for (const auto& cap : patch.caps) volume += (cap[0] - origin).dot((cap[1] - origin).cross(cap[2] - origin)) / 6;
+    for (const auto& cap : patch.caps) {
+        const Vec3 a = cap[0] - origin, b = cap[1] - origin, c = cap[2] - origin;
+        enclose(a.dot(b.cross(c)) / 6, a + b + c);
+    }
     patch.area = area;
     patch.solid = oriented && members.size() >= 4 && area > 0 && hole_area < LARGEST_HOLE * area && volume != 0;
     // A leaf with two faces is a sheet drawn twice if they are closer together than half its thickness.
@@ -186,6 +196,8 @@ static void measure(const Topology& topology, const std::vector<int>& members, c
     patch.filled = patch.solid && std::abs(volume) >= 0.5 * sheet;
     patch.volume = patch.filled ? std::abs(volume) : 0;
     patch.tissue = patch.filled ? std::min(patch.volume, 0.5 * area * solid_thickness(organ)) : sheet;
+    patch.centre = origin;
+    if (area > 0) patch.centre += patch.filled ? Vec3(of_volume / volume) : Vec3(of_area / area);
     if (!patch.solid) patch.caps.clear();
     if (!patch.solid || volume > 0) return;
     for (int t : members) patches.flipped[size_t(t)] ^= 1;

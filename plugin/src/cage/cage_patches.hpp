@@ -14,11 +14,12 @@ struct Edges {
 
 struct Patch {
     int organ = 0;
-    double area = 0;      // [m^2]
-    double volume = 0;    // enclosed [m^3]; 0 unless it is filled
-    double tissue = 0;    // volume of plant [m^3]; the rest of what a leaf drawn thick encloses is air
-    bool solid = false;   // boundary of a body; its holes, if any, are small
-    bool filled = false;  // solid, and thick enough to be filled with the volume inside
+    double area = 0;             // [m^2]
+    double volume = 0;           // enclosed [m^3]; 0 unless it is filled
+    Vec3 centre = Vec3::Zero();  // of its tissue [m]
+    double tissue = 0;           // volume of plant [m^3]; the rest of what a leaf drawn thick encloses is air
+    bool solid = false;          // boundary of a body; its holes, if any, are small
+    bool filled = false;         // solid, and thick enough to be filled with the volume inside
     std::vector<std::array<Vec3, 3>> caps;  // triangles that close the holes, front outwards
 };
 

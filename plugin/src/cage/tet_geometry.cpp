@@ -15,6 +15,12 @@ double tet_volume(const VecX& x, const Tet& tet) {
     return tet_volume(point(x, tet[0]), point(x, tet[1]), point(x, tet[2]), point(x, tet[3]));
 }
 
+Vec3 tet_centre(const std::vector<Vec3>& nodes, const Tet& tet) {
+    Vec3 sum = Vec3::Zero();
+    for (int corner : tet) sum += nodes[size_t(corner)];
+    return sum / 4;
+}
+
 std::array<double, 4> tet_weights(const std::vector<Vec3>& nodes, const Tet& tet, const Vec3& place) {
     const Vec3& a = nodes[size_t(tet[0])];
     const Vec3 ab = nodes[size_t(tet[1])] - a, ac = nodes[size_t(tet[2])] - a, ad = nodes[size_t(tet[3])] - a;

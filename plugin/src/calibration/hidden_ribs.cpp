@@ -6,21 +6,19 @@
 
 #include <algorithm>
 
-#include "calibration/weigh.hpp"
 #include "core/elementary.hpp"
 
 namespace frond {
 
 Turns find_turns(const Model& model) {
     const std::vector<ChainNode>& nodes = model.chain.nodes;
-    const Weights weights = weigh(model, hang_tets(model));
     Turns turns{std::vector<double>(nodes.size(), 0.0), std::vector<double>(model.organs.size(), 0.0)};
     for (int axis = 0; axis < 3; axis++) {
         const Vec3 load = GRAVITY * Vec3::Unit(axis);
         std::vector<Vec3> force(nodes.size()), moment(nodes.size());
         for (size_t i = 0; i < nodes.size(); i++) {
-            force[i] = weights.mass[i] * load;
-            moment[i] = weights.moment[i].cross(load);
+            force[i] = model.chain_mass[i] * load;
+            moment[i] = nodes[i].position.cross(force[i]);
         }
         std::vector<double> curvature(nodes.size(), 0.0), turn(nodes.size(), 0.0);
         for (size_t i = nodes.size(); i-- > 0;) {

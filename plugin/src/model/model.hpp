@@ -44,6 +44,7 @@ struct Model {
     std::vector<Section> sections;  // section of the capsule between a chain node and its parent, one per chain node
     bool exact_sections = false;    // sections are given, not measured on the surface
     StemSource stem_source;
+    std::vector<double> organ_mass;     // what each organ weighs, in cage and chain [kg]
     std::vector<double> chain_mass;     // part of the plant's mass at each chain node [kg]
     std::vector<double> organ_stiffer;  // factor by which each organ is stiffer than its material so that it stands [-]
     bool calibrated = false;            // tet_young is fitted, for order 1 only; else it is the material's

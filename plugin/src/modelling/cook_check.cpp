@@ -101,6 +101,8 @@ void check_topology(const Model& model) {
 void check_organs(const Model& model) {
     need(!model.organs.empty() && model.organ_stiffer.size() == model.organs.size(), "it has no organs");
     need_positive(model.organ_stiffer, "an organ's stiffness is out of range");
+    need(model.organ_mass.size() == model.organs.size(), "its organs are not weighed");
+    for (double mass : model.organ_mass) need(is_in(mass, 0, LARGEST_NUMBER), "an organ's mass is out of range");
     for (const Organ& organ : model.organs) {
         need(material_preset(organ.kind) != nullptr, "an organ is of no known kind");
         try {
@@ -204,9 +206,14 @@ void check_cage(const Model& model) {
     for (const Tet& tet : cage.tets) need(tet_volume(cage.nodes, tet) > 0, "a tet has no volume");
     need_indices(cage.tet_organ, model.organs.size(), "a tet is of no organ");
     need_positive(cage.tet_fill, "a tet is empty");
+    for (const Tissue& tissue : cage.tissue)
+        need(size_t(tissue.tet) < tets && size_t(tissue.organ) < model.organs.size() && is_positive(tissue.volume),
+             "a tet holds tissue of no organ");
     need_positive(model.tet_density, "a tet's density is out of range");
     need_positive(model.tet_young, "a tet's modulus is out of range");
     for (double poisson : model.tet_poisson) need(is_in(poisson, 0, 0.499), "a tet's Poisson ratio is out of range");
+    need(cage.organ_centre.size() == (cage.tissue.empty() ? 0 : model.organs.size()), "an organ is nowhere");
+    need_places(cage.organ_centre, "an organ is nowhere");
     check_embedding(model.embedding, model.surface.positions.size(), tets);
     check_embedding(model.chain_embedding, model.chain.nodes.size(), tets);
     need(is_positive(model.stiffening_factor), "its stiffening factor is out of range");
