@@ -44,7 +44,7 @@ static std::vector<double> organ_factors(const Model& model) {
     return factors;
 }
 
-// Error of both first modes together, and the factor on the moduli of organs that carry the plant to remove it.
+// Error of both first modes together, and the factor on the moduli of an organ that carries it all to remove it.
 struct Gap {
     double error = INFINITY;  // mean logarithm of the ratio of the frequencies' squares, rods over springs [-]
     double step = 0;          // change of the factor's logarithm [-]
@@ -55,8 +55,7 @@ static Gap find_gap(const RodSways& rods, const RodSways& springs) {
     for (size_t i = 0; i < rods.square.size(); i++) {
         if (!(rods.square[i] > 0) || !(springs.square[i] > 0)) return {};
         error += 0.5 * frond::log(rods.square[i] / springs.square[i]);
-        for (size_t o = 0; o < rods.carries.size(); o++)
-            if (rods.carries[o]) slope += 0.5 * springs.energies[i][Eigen::Index(o)] / springs.square[i];
+        slope += 0.5 * springs.energies[i].dot(rods.share) / springs.square[i];
     }
     if (!(slope > 0)) return {};
     return {error, std::clamp(error / slope, -LARGEST_STEP, LARGEST_STEP)};
@@ -79,7 +78,7 @@ std::vector<double> fit_springs(const Model& model) {
     for (int round = 0; round < ROUNDS && share > LEAST_SHARE && std::abs(gap.error) > CLOSE; round++) {
         const std::vector<double> before = factors;
         for (size_t o = 0; o < factors.size(); o++)
-            if (rods.carries[o]) factors[o] *= frond::exp(share * gap.step);
+            factors[o] *= frond::exp(share * gap.step * rods.share[Eigen::Index(o)]);
         const Gap next = find();
         if (std::abs(next.error) < std::abs(gap.error)) {
             gap = next;

@@ -19,23 +19,6 @@
 
 namespace frond {
 
-// Share of a mode's elastic energy with which an organ carries it [-].
-static constexpr double MUCH = 0.1;
-// The same for an organ that carries only a mode of the cage: corn's tassel has 0.24. With leaves of 0.13, which happen
-// to be in resonance with its stem, each change brought others into resonance.
-static constexpr double MUCH_OF_CAGE = 0.16;
-
-// Returns for each organ whether another one grows out of it.
-static std::vector<char> bearing_organs(const Model& model) {
-    std::vector<char> bears(model.organs.size(), 0);
-    for (const ChainNode& node : model.chain.nodes) {
-        if (node.parent < 0) continue;
-        const int below = model.chain.nodes[size_t(node.parent)].organ;
-        if (below >= 0 && below != node.organ) bears[size_t(below)] = 1;
-    }
-    return bears;
-}
-
 // Returns twice the elastic energy of each organ's segments in a motion from the modelled shape.
 static VecX energies_of(const Model& model, const RodElements& elements, const VecX& shape) {
     constexpr double SMALL = 1e-4;  // largest displacement or rotation by which strains are measured [m], [-]
@@ -62,8 +45,7 @@ static Vec3 momentum_of(const VecX& mass, const VecX& shape, int nodes_per_place
 
 RodSways find_sways(const Model& model, const RodElements& elements, frond_mechanics which) {
     RodSways sways;
-    sways.carries.assign(model.organs.size(), 0);
-    const std::vector<char> bears = bearing_organs(model);
+    sways.share = VecX::Zero(Eigen::Index(model.organs.size()));
     const Mechanics& row = mechanics(which);
     const std::vector<uint8_t> still = still_nodes(model, elements, true);
     StaticStiffness stiffness(elements.pattern);
@@ -75,8 +57,7 @@ RodSways find_sways(const Model& model, const RodElements& elements, frond_mecha
         sways.square[i] = found[i].square;
         sways.momentum[i] = momentum_of(mass, found[i].shape, 2);
         const VecX energies = sways.energies[i] = energies_of(model, elements, found[i].shape);
-        for (size_t o = 0; o < sways.carries.size(); o++)
-            if (bears[o] && energies[Eigen::Index(o)] > MUCH * energies.sum()) sways.carries[o] = 1;
+        sways.share = sways.share.cwiseMax(energies / energies.sum());
     }
     return sways;
 }
@@ -99,19 +80,6 @@ static VecX energies_of(const TetElements& elements, frond_mechanics which, cons
         });
     }
     return energies;
-}
-
-// Keeps the moduli of organs that carry neither a mode of the rods nor one of the cage.
-static void keep_others(const Model& model, const std::vector<char>& carry_rods, MatX& slope) {
-    std::vector<char> carry = carry_rods;
-    for (Eigen::Index i = 0; i < slope.rows(); i++) {
-        VecX energies = VecX::Zero(Eigen::Index(carry.size()));
-        for (Eigen::Index e = 0; e < slope.cols(); e++) energies[model.cage.tet_organ[size_t(e)]] += slope(i, e);
-        for (size_t o = 0; o < carry.size(); o++)
-            if (energies[Eigen::Index(o)] > MUCH_OF_CAGE * energies.sum()) carry[o] = 1;
-    }
-    for (Eigen::Index e = 0; e < slope.cols(); e++)
-        if (!carry[size_t(model.cage.tet_organ[size_t(e)])]) slope.col(e).setZero();
 }
 
 // Brings a cage's modes into the order of the rods': each to the one that moves the plant in its direction. The order
@@ -140,10 +108,16 @@ SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanic
         errors[Eigen::Index(i)] = frond::log(rods.square[i] / sway.square);
         slope.row(Eigen::Index(i)) = energies_of(elements, which, x, sway.shape).transpose() / sway.square;
     }
-    keep_others(model, rods.carries, slope);
     if (!errors.allFinite() || !slope.allFinite()) return {};
-    return {errors.lpNorm<Eigen::Infinity>(), least_change(slope, errors, (-FARTHEST - done.array()).max(-LARGEST_STEP),
-                                                           (FARTHEST - done.array()).min(LARGEST_STEP), RIGID)};
+    // An organ changes as it carries the rods' sways: a leaf that is in resonance with the stem has much of a cage's
+    // sway and is right as it is.
+    VecX ease(slope.cols());
+    for (Eigen::Index e = 0; e < slope.cols(); e++) ease[e] = std::sqrt(rods.share[model.cage.tet_organ[size_t(e)]]);
+    const VecX least = (-FARTHEST - done.array()).max(-LARGEST_STEP),
+               most = (FARTHEST - done.array()).min(LARGEST_STEP);
+    const VecX change =
+        least_change(slope * ease.asDiagonal(), errors, least.cwiseQuotient(ease), most.cwiseQuotient(ease), RIGID);
+    return {errors.lpNorm<Eigen::Infinity>(), change.cwiseProduct(ease)};
 }
 
 }  // namespace frond

@@ -10,7 +10,7 @@ struct RodSways {
     std::array<double, 2> square = {};  // squares of the angular frequencies, the slower one first [1/s^2]; 0: none
     std::array<Vec3, 2> momentum = {Vec3::Zero(), Vec3::Zero()};  // of the plant at a velocity of one [sqrt kg]
     std::array<VecX, 2> energies;  // twice the elastic energy of each organ at a kinetic energy of a half [1/s^2]
-    std::vector<char> carries;     // one per organ: whether others grow out of it and its bending is much of a mode
+    VecX share;                    // of each organ: the larger of its shares of the modes' elastic energies [-]
 };
 struct RodElements;
 RodSways find_sways(const Model& model, const RodElements& elements, frond_mechanics which);
@@ -18,7 +18,7 @@ RodSways find_sways(const Model& model, const RodElements& elements, frond_mecha
 // The gap between the first modes of a cage and of its rods.
 struct SwayGap {
     double error = 0;  // larger logarithm of the ratio of the frequencies' squares, rods over cage [-]
-    VecX change;       // least change of the tets' log moduli, in organs that carry the plant, that removes it
+    VecX change;  // least change of the tets' log moduli, larger in organs that carry the rods' modes, that removes it
 };
 // Finds the gap for a cage at x, its exact stiffness factorized; changes are within bounds, `done` are those made
 // before.
