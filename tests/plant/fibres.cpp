@@ -165,6 +165,25 @@ TEST(Fibres, AreForCagesThatLackThem) {
     EXPECT_TRUE(make_fibres(tet, 1).list.empty());
 }
 
+// A handover relaxes by fibres too, and no step of the host led there.
+TEST(Fibres, PullBackWhatOtherMechanicsStretched) {
+    const auto plant = plant_of(blade(5e8, 3e-4), FROND_MECHANICS_TET_LINEAR);
+    const double before = chain_length(*plant);
+    // A small rotation taken far is free for linear tets, and stretches.
+    constexpr double TURN = 0.7;
+    for (int i = 0; i < node_count_of(*plant); i++) {
+        const Vec3 place = point(plant->state.motion.x, i);
+        point(plant->state.motion.x, i) += TURN * Vec3::UnitZ().cross(place);
+    }
+    moved(*plant);
+    update_chain(*plant);
+    EXPECT_GT(chain_length(*plant), 1.15 * before);
+    plant->step.x_good.resize(0);
+    set_mechanics(*plant, FROND_MECHANICS_TET_COROTATIONAL);
+    update_chain(*plant);
+    EXPECT_LT(chain_length(*plant), 1.05 * before);
+}
+
 // What holds one end of a falling blade stops the rest through its fibres: the plant's momentum is what weight and hand
 // gave it, also where a step is divided.
 TEST(Fibres, CarryWhatHangsOnThem) {
