@@ -46,7 +46,7 @@ struct Standing {
     bool is_changed = false;   // it need not come home
 };
 
-// The greatest speed and force that operations gave anything.
+// The greatest speed that operations gave anything, and the sums of forces and of their impulses.
 struct Loads {
     double speed = 0, force = 0, impulse = 0;  // [m/s], [N], [N s]
     bool has_bodies = false;                   // something may press plants

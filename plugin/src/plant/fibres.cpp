@@ -203,11 +203,11 @@ void take_back_crumpling(Plant& plant, const VecX& x_free, const VecX& v_free, d
     const auto stored_at = [&](const VecX& x) { return row.energy(elements_of(plant), x); };
     Motion& motion = plant.state.motion;
     const double free = stored_at(x_free);
-    if (stored_at(motion.x) <= free) return;
+    double stored = stored_at(motion.x);
+    if (stored <= free) return;
     const VecX way = motion.x - x_free, dv = motion.v - v_free;
     const double before = stored_at(plant.step.x_good), error = LIFT * lifting_energy(plant);
     const auto may_be_stored = [&] {
-        const double stored = stored_at(motion.x);
         if (stored <= std::max(free, before) + error) return true;
         const LoadWork work = work_of_loads(plant, h);
         const double given = work.forces + work.grabs + work.air + work_of_weight(plant, way_of_step(plant));
@@ -218,6 +218,7 @@ void take_back_crumpling(Plant& plant, const VecX& x_free, const VecX& v_free, d
         share = share > LEAST ? share / 2 : 0;
         motion.x = x_free + share * way;
         motion.v = v_free + share * dv;
+        stored = stored_at(motion.x);
     }
     plant.state.fibre_force *= share;
 }
