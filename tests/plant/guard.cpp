@@ -165,6 +165,20 @@ TEST_P(EveryShape, FadesFromThereUnlessSomethingTouchesIt) {
     }
 }
 
+// What a host reads between steps is kept, and may be far from where a step has brought the plant before it starts
+// anew.
+TEST_P(EveryShape, FadesAlikeWhetherItsPlacesAreReadOrNot) {
+    const auto read = stem(GetParam()), unread = stem(GetParam());
+    for (Plant* plant : {read.get(), unread.get()}) {
+        scramble(*plant, 0.4);
+        if (plant == read.get()) cage_places(*plant);
+        plant->state.motion.x *= 1.5;  // as within a step
+        ASSERT_TRUE(start_from_modelled(*plant));
+        ASSERT_FALSE(is_over(plant->state.blend_out));
+    }
+    EXPECT_EQ(read->state.blend_out.offset, unread->state.blend_out.offset);
+}
+
 TEST_P(EveryShape, StartsWithoutSetsThatKeepItFromItsModelledShape) {
     const auto plant = stem(GetParam());
     step_plant(*plant, earth(), H);

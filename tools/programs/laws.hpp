@@ -67,6 +67,7 @@ private:
     void check_places(const Standing& plant, const Loads& loads);
     void check_lengths(const Standing& plant, const Loads& loads, bool is_touched);
     void check_energy(const std::map<int, Standing>& plants, double dt);
+    void check_handover(const Standing& plant, double gained, double allowed);
     void check_work(const std::map<int, Standing>& plants);
 
     bool checks(Law law) const { return checked & bit_of(law); }

@@ -235,7 +235,6 @@ bool add_hit(World& world, PlantBody& body, const SweptBody& swept, const Hit& h
 
 void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const std::vector<Contact>& last, double h,
                         std::vector<Contact>& contacts) {
-    world.swept.clear();
     if (bodies.empty()) return;
     Search search = {world, h, last, contacts};
     for (const PlantBody* body : world.awake)

@@ -89,11 +89,16 @@ void approach_modelled(Plant& plant, double most) {
         return stored_energy(plant).potential;
     };
     const auto has_little_at = [&](double share) { return stored_at(share) <= most; };
-    if (!has_little_at(1)) set_plastic(plant, {});
-    // Linear tets hold energy where they are turned, even as modelled.
-    if (!has_little_at(1) && stored_at(0) <= stored_at(1)) {
-        plant.state.motion.x = from;
-        return;
+    const double stored = stored_at(0);
+    if (!has_little_at(1)) {
+        const std::vector<double> sets = plastic_of(plant);
+        set_plastic(plant, {});
+        // Linear tets hold energy where they are turned, and any where pins strain them, even as modelled.
+        if (!(stored_at(1) < stored)) {
+            set_plastic(plant, sets);
+            plant.state.motion.x = from;
+            return;
+        }
     }
     double enough = 1;
     for (double step = 0.5; step > std::ldexp(1, -HALVINGS); step /= 2)
@@ -109,6 +114,7 @@ bool start_from_modelled(Plant& plant) {
     if (!find_frame(plant, rotation, shift)) return false;
     const VecX x = modelled_in(plant, rotation, shift);
     if (!drop_wild_sets_for_less_energy(plant, x)) return false;
+    plant.view.cage_stale = true;  // a host may have read the places from which the step began
     const VecX places = cage_places(plant);
     motion.x = x;
     motion.v.setZero();

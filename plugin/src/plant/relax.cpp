@@ -5,6 +5,8 @@
 // of implicit Euler from rest, with the organs' fibres, relax those first and leave slow bending unchanged; one solve
 // does the same to velocities: (M + h^2 K) v = M v_given. What is strained too far for that goes part of the way to the
 // modelled shape.
+#include <algorithm>
+
 #include "plant/guard.hpp"
 #include "plant/pins.hpp"
 
@@ -27,56 +29,68 @@ static void take_velocities(Plant& plant, const SolveSettings& settings, const V
     if (!respond(*plant.step.workspace, settings, momentum, plant.state.motion.v)) plant.state.motion.v.setZero();
 }
 
-// Holds pinned nodes where they are now: what moved pins do is work of the next step.
-static void hold_still(Plant& plant) {
+// Lets go of pinned nodes that are not where their pins were moved: what those do is work of the next step.
+static void let_go_of_moved(Plant& plant) {
     apply_pins(plant);
     Motion& motion = plant.state.motion;
-    const int count = int(motion.pinned.size());
-    for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1))
-        point(motion.pin_target, i) = point(motion.x, i);
-    for (Spring& spring : plant.input.pin_springs) spring.target = attachment_place(spring.attachment, motion.x);
+    const double near = PINS_STAND * double(plant.size);
+    const int next = plant.follow ? 2 : 1, count = int(motion.pinned.size());
+    for (int i = 0; i < count; i += next)
+        if (motion.pinned[size_t(i)] && (point(motion.pin_target, i) - point(motion.x, i)).norm() > near)
+            std::fill_n(motion.pinned.begin() + i, next, uint8_t(0));
     plant.input.pins_changed = true;
 }
 
-void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
+// Takes steps from rest, longer ones where these gain little, until the plant stores no more than `bound` or as little
+// as it can as it is held. Returns whether there was a step; its workspace is that of the last one.
+static bool take_steps(Plant& plant, SolveSettings& settings, double bound) {
     constexpr int ROUNDS = 30, ITERATIONS = 10;  // steps, and solves in each
-    constexpr double STEP = 1.0 / 60;            // [s]
+    constexpr double SLOW = 0.9;                 // share of the energy that a step leaves if the next one is longer [-]
+    double h = 1.0 / 60;                         // [s]
+    Motion& motion = plant.state.motion;
+    Loads loads;
+    loads.gravity = plant.step.loads.gravity;
+    if (loads.gravity.isZero(0) && plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
+    double stored = stored_energy(plant).potential;
+    if (stored <= bound) return false;
+    for (int round = 0; round < ROUNDS && !(stored <= bound); round++) {
+        take_workspace(plant);
+        const VecX before = motion.x;
+        motion.v.setZero();
+        plant.report = solve_step(*plant.step.workspace, settings, loads, h, motion);
+        const VecX free = motion.x;
+        hold_lengths(plant, h, false);
+        // Between pins that are too far apart fibres would crumple the cage.
+        if (!(stored_energy(plant).potential < stored)) motion.x = free;
+        const double next = stored_energy(plant).potential;
+        if (plant.report.ok && next < stored) {
+            if (!(next < SLOW * stored)) h *= 2;
+            stored = next;
+            continue;
+        }
+        motion.x = before;
+        if (settings.careful) break;
+        // One solve overshoots: a search does not.
+        settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
+        settings.careful = settings.from_rest = true;
+    }
+    return true;
+}
+
+void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
     // Shares of the energy that lifts the plant by its size: what counts as none, and what a step's check allows [-].
     constexpr double SHARE = 0.001, ALLOWED = 0.01;
     Motion& motion = plant.state.motion;
     const double none = SHARE * lifting_energy(plant), bound = most.potential + none;
-    const VecX given = motion.v, start = motion.x;
+    const VecX given = motion.v;
     SolveSettings settings = plant.input.settings;
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
-    Loads loads;
-    loads.gravity = plant.step.loads.gravity;
-    if (loads.gravity.isZero(0) && plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
     if (pins_moved)
-        hold_still(plant);
+        let_go_of_moved(plant);
     else
         apply_pins(plant);
     plant.step.has_fibres = true;
-    bool ok = true;
-    int round = 0;
-    for (double now = stored_energy(plant).potential; round < ROUNDS && ok && !(now <= bound); round++) {
-        take_workspace(plant);
-        const VecX before = motion.x;
-        motion.v.setZero();
-        plant.report = solve_step(*plant.step.workspace, settings, loads, STEP, motion);
-        ok = plant.report.ok;
-        hold_lengths(plant, STEP, false);
-        const double next = stored_energy(plant).potential;
-        if (!(next < now) && !settings.careful) {
-            // One solve overshoots: a search does not.
-            motion.x = before;
-            settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
-            settings.careful = settings.from_rest = true;
-        } else {
-            now = next;
-        }
-    }
-    if (round > 0) {
-        if (!ok || !are_finite(motion.x)) motion.x = start;
+    if (take_steps(plant, settings, bound)) {
         take_velocities(plant, settings, given);
         return_workspace(plant);
         const double most_left = bound + ALLOWED * lifting_energy(plant);
