@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
     check_picture(frond_film_create(&film_def, &film));
 
     /* It turns into the row within three seconds and stays there. */
-    check(frond_robot_drive_to(arm, frond_robot_find_link(arm, "turn"), 0.12, 0.6, 0));
+    check(frond_robot_drive_to(arm, frond_robot_find_link(arm, "turn"), 0.3, 0.6, 0));
     for (int step = 0; step < STEPS; step++) {
         check(frond_world_step(world, 1.0 / 60));
         if (step % STEPS_A_FRAME || step > STEPS / 2) continue;

@@ -24,7 +24,7 @@ struct Own {
 };
 
 // A contact with less compliance is immovable and needs no impulse.
-constexpr double IMMOVABLE = 1e-12;  // [1/kg]
+constexpr double IMMOVABLE = 1e-7;  // [1/kg]
 
 }  // namespace
 
@@ -92,7 +92,7 @@ Vec3 corrected(const Touch& touch, const Own& own, Vec3 velocity, const Vec3& be
     // Along the normal, push but never pull.
     const double push_before = before.dot(touch.normal);
     const double lacking = touch.bias_velocity - velocity.dot(touch.normal);
-    const double push = std::max(0.0, push_before + own.along * lacking);
+    const double push = own.along > 0 ? std::max(0.0, push_before + own.along * lacking) : 0;
 
     // Tangentially, oppose the sliding that is left, as far as friction can.
     velocity += own.block * ((push - push_before) * touch.normal);
@@ -118,6 +118,28 @@ Change sweep(ImpulseSearch& search, double unfelt) {
         change.speed = std::max(change.speed, speed);
     }
     return change;
+}
+
+// Rounds take energy from what touches, relative to the velocities that contacts ask for, so whatever they end with
+// takes some if they begin with none given. Impulses of the last step, and extrapolated ones, may give it: then only as
+// much of them is kept as takes most.
+void keep_what_takes_energy(ImpulseSearch& search) {
+    double work = 0, square = 0;  // of all impulses p: p (v - asked) without them, and p W p [J]
+    for (size_t k = 0; k < search.island.size(); k++) {
+        const Touch& touch = search.touches[size_t(search.island[k])];
+        const Vec3 asked = touch.is_bond ? touch.wanted : Vec3(touch.bias_velocity * touch.normal);
+        const Vec3 impulse = search.impulses.segment<3>(3 * Eigen::Index(k));
+        work += impulse.dot(touch.velocity - asked);
+        square += impulse.dot(search.velocities.segment<3>(3 * Eigen::Index(k)) - touch.velocity);
+    }
+    if (work + 0.5 * square <= 0) return;
+    const double share = work < 0 ? -work / square : 0;
+    search.impulses *= share;
+    for (size_t k = 0; k < search.island.size(); k++) {
+        const Vec3& velocity = search.touches[size_t(search.island[k])].velocity;
+        auto now = search.velocities.segment<3>(3 * Eigen::Index(k));
+        now = velocity + share * (now - velocity);
+    }
 }
 
 // Returns how many rounds an island may take. Its cost grows with the square of its contacts: rounds over many of them
@@ -175,8 +197,10 @@ ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTab
         }
         for (size_t k = 0; k < island.size(); k++)
             if (!impulses[size_t(island[k])].isZero(0)) add_impulse(search, int(k), impulses[size_t(island[k])]);
+        keep_what_takes_energy(search);
         bool converged = false;
         report.iterations = std::max(report.iterations, solve_island(search, limits, unfelt, converged));
+        if (!converged) keep_what_takes_energy(search);
         report.converged = report.converged && converged;
         for (size_t k = 0; k < island.size(); k++) {
             Vec3& impulse = impulses[size_t(island[k])] = search.impulses.segment<3>(3 * Eigen::Index(k));
