@@ -65,6 +65,11 @@ double drawn(Plant& plant, const Vec3& way, double force, double& held) {
     return chain_length(plant) / before;
 }
 
+Fibres fibres_of(const Model& model) {
+    const TetNodes nodes = make_tet_nodes(int(model.cage.nodes.size()), model.cage.tets, 1);
+    return make_fibres(model, nodes, node_places(nodes, [&](int i) { return model.cage.nodes[size_t(i)]; }));
+}
+
 class Pulled : public testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(Tets, Pulled,
                          testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN));
@@ -108,7 +113,7 @@ TEST_P(Pulled, SoftTissueGivesAsItShould) {
     def.organs = &organ;
     def.organ_count = 1;
     const auto model = build_from_stems(&stem, 1, def);
-    ASSERT_FALSE(make_fibres(*model, 1).list.empty());
+    ASSERT_FALSE(fibres_of(*model).list.empty());
     double force;
     const double stretched = drawn(*plant_of(model, GetParam()), {0, 0.3, 0}, 4, force) - 1;
     const double expected = force / (YOUNG * M_PI * RADIUS * RADIUS);
@@ -156,13 +161,13 @@ TEST_P(Pulled, IntegratorsLookBackBeyondTautFibres) {
 }
 
 TEST(Fibres, AreForCagesThatLackThem) {
-    EXPECT_GT(make_fibres(*blade(5e8, 3e-4), 1).list.size(), 4u);
+    EXPECT_GT(fibres_of(*blade(5e8, 3e-4)).list.size(), 4u);
     EXPECT_TRUE(plant_of(blade(5e8, 3e-4), FROND_MECHANICS_TET_COROTATIONAL)->fibres);
     EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_MECHANICS_TET_LINEAR)->fibres);  // linear tets grow when they rotate
     EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_MECHANICS_ROD)->fibres);
     Model tet;
     tet.calibrated = false;
-    EXPECT_TRUE(make_fibres(tet, 1).list.empty());
+    EXPECT_TRUE(fibres_of(tet).list.empty());
 }
 
 // A handover relaxes by fibres too, and no step of the host led there.

@@ -99,8 +99,9 @@ std::shared_ptr<const ModalBasis> modal_basis_of(const Plant& plant) {
 
 // Returns null if the cage needs no fibres.
 static std::shared_ptr<const Fibres> fibres_of(const Plant& plant) {
-    const int order = plant.nodes->order;
-    const auto fibres = shared_of<Fibres>(plant.model, order, [&] { return make_fibres(*plant.model, order); });
+    const CageNodes& nodes = *plant.nodes;
+    const auto fibres =
+        shared_of<Fibres>(plant.model, nodes.order, [&] { return make_fibres(*plant.model, nodes, nodes.modelled); });
     return fibres->list.empty() ? nullptr : fibres;
 }
 

@@ -1,30 +1,19 @@
-// In: a plant of tets that is solved but not yet accepted. Out: the same, with no capsule of a caged organ stretched
-// more than its tissue would be.
-//
-// A fibre is slack up to a small stretch and beyond it as stiff as what the cage lacks, so small motions, the rest
-// shape and the fit of the cage are unaffected. It only pulls. Taut fibres are rows of impulses against the plant's own
-// factor, as contacts are, with their own compliance on the diagonal: for a step whose positions follow velocities by
-// `reach`, an impulse p is a force p / reach, which stretches the fibre by p / (reach k). A grabbed vertex pulls at its
-// capsule likewise.
-#include "plant/fibres.hpp"
+// In: a model whose cage is softer in tension than its organs, and a plant of it. Out: its fibres, and which of them
+// are taut.
+#include "plant/fibre_rows.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "cage/tet_geometry.hpp"
-#include "core/timer.hpp"
-#include "plant/guard.hpp"
-#include "plant/load_work.hpp"
+#include "plant/follow.hpp"
 #include "plant/plant.hpp"
-#include "solve/node_compliance.hpp"
-#include "solve/one_sided.hpp"
 
 namespace frond {
 
 namespace {
 
-constexpr double SLACK = 0.03;   // stretch that is not resisted [-]
-constexpr int ROUNDS = 3;        // one leaves 10 % at 5 N on a blade, three 3.5 %: pulls turn what they pull
-constexpr double CLOSE = 0.001;  // error in stretch that needs no further round [-]
+constexpr double SLACK = 0.03;  // stretch that is not resisted [-]
 
 // Returns the share of each organ's tensile stiffness that its cage lacks [-].
 std::vector<double> lack_of_organs(const Model& model, int order) {
@@ -41,15 +30,8 @@ std::vector<double> lack_of_organs(const Model& model, int order) {
     return tissue;
 }
 
-// A fibre that is taut, or that others may draw taut.
-struct Row {
-    Attachment begin, end;
-    double length;     // length from which it pulls [m]
-    double stiffness;  // [N/m]
-};
-
 // Adds rows from each grabbed vertex to both ends of its capsule.
-void add_rows_of_grabs(const Plant& plant, std::vector<Row>& rows) {
+void add_rows_of_grabs(const Plant& plant, std::vector<FibreRow>& rows) {
     const Model& model = *plant.model;
     const Fibres& fibres = *plant.fibres;
     for (const Grab& grab : plant.input.grabs) {
@@ -64,6 +46,45 @@ void add_rows_of_grabs(const Plant& plant, std::vector<Row>& rows) {
     }
 }
 
+// Returns the length of a row over that from which it pulls [-].
+double drawn_out(const Plant& plant, const FibreRow& row) {
+    const VecX& x = plant.state.motion.x;
+    return (attachment_place(row.end, x) - attachment_place(row.begin, x)).norm() / row.length;
+}
+
+// Adds rows from nodes that a force of the host pulls to both ends of their fibre, of several nodes of one from that
+// which is drawn out most: tissue holds what pulls at a point of an organ to the organ. Returns whether one is taut.
+bool add_rows_of_forces(const Plant& plant, std::vector<FibreRow>& rows) {
+    if (!plant.input.has_user_force) return false;
+    const Fibres& fibres = *plant.fibres;
+    std::map<std::array<int, 2>, FibreRow> most;  // by fibre and end
+    const VecX& given = plant.input.forces->on_nodes;
+    for (int n = 0; n < given.size() / 3; n++) {
+        const int fibre = fibres.of_cage_node[size_t(n)];
+        if (fibre < 0 || point(given, n).isZero(0)) continue;
+        const Fibre& tied = fibres.list[size_t(fibre)];
+        if (fragment_of_chain_node(plant, size_t(tied.node))) continue;
+        Attachment node;
+        node.count = 1;
+        node.node[0] = n;
+        node.weight[0] = 1;
+        for (const int end : {tied.node, plant.model->chain.nodes[size_t(tied.node)].parent}) {
+            const Vec3& place = plant.model->chain.nodes[size_t(end)].position;
+            const double length = (point(plant.nodes->modelled, n) - place).norm();
+            if (!(length > 0)) continue;
+            const FibreRow row = {chain_attachment(plant, end), node, (1 + SLACK) * length, tied.stiffness};
+            const auto [known, is_new] = most.insert({{fibre, end}, row});
+            if (!is_new && drawn_out(plant, row) > drawn_out(plant, known->second)) known->second = row;
+        }
+    }
+    bool any = false;
+    for (const auto& [place, row] : most) {
+        any = any || drawn_out(plant, row) > 1;
+        rows.push_back(row);
+    }
+    return any;
+}
+
 // Returns the present length of a fibre over its slack length [-].
 double drawn_out(const Plant& plant, const Fibre& fibre) {
     const std::vector<Vec3>& places = plant.view.chain_positions;
@@ -71,25 +92,11 @@ double drawn_out(const Plant& plant, const Fibre& fibre) {
     return (places[node] - places[parent]).norm() / fibre.length;
 }
 
-// Crossed leaves come apart only by being stretched, so fibres of an entangled plant lengthen, and shorten afterwards
-// no faster than contacts can follow.
-void let_give(Plant& plant, double h) {
-    constexpr double RATE = 0.02;  // [1/s]
-    const std::vector<Fibre>& list = plant.fibres->list;
-    if (plant.state.is_entangled) plant.state.fibre_give.resize(list.size(), 1);
-    bool gives = false;
-    for (size_t i = 0; i < plant.state.fibre_give.size(); i++) {
-        double& give = plant.state.fibre_give[i];
-        give = plant.state.is_entangled ? std::max(give, drawn_out(plant, list[i])) : std::max(1.0, give - RATE * h);
-        gives = gives || give > 1;
-    }
-    if (!gives) plant.state.fibre_give.clear();
-}
+}  // namespace
 
-// Finds the taut fibres and, if there are any, the nearly taut ones, which others may stretch.
-std::vector<Row> find_rows(const Plant& plant) {
+std::vector<FibreRow> find_fibre_rows(const Plant& plant) {
     constexpr double NEARLY = 0.985;  // length over that of a taut fibre [-]
-    std::vector<Row> rows;
+    std::vector<FibreRow> rows;
     const std::vector<Fibre>& list = plant.fibres->list;
     bool any = false;
     for (size_t i = 0; i < list.size(); i++) {
@@ -102,150 +109,31 @@ std::vector<Row> find_rows(const Plant& plant) {
         rows.push_back({chain_attachment(plant, parent), chain_attachment(plant, fibre.node), give * fibre.length,
                         fibre.stiffness});
     }
+    any |= add_rows_of_forces(plant, rows);
     if (!any) return {};
     add_rows_of_grabs(plant, rows);
     return rows;
 }
 
-// A row at the present positions: forces of a unit pull on its nodes, and its excess length [m].
-struct NodePull {
-    int node;
-    Vec3 along;  // force on the node by a unit pull [-]
-};
-struct Stretch {
-    std::vector<NodePull> pull;
-    double over;
-};
-
-Stretch stretch_of(const Row& row, const VecX& x) {
-    const Vec3 way = attachment_place(row.end, x) - attachment_place(row.begin, x);
-    const Vec3 along = way.normalized();
-    Stretch stretch = {{}, way.norm() - row.length};
-    const auto add = [&](const AttachmentDerivative& at, const Vec3& pull) {
-        for (size_t k = 0; k < size_t(at.count); k++) stretch.pull.push_back({at.node[k], at.by[k].transpose() * pull});
-    };
-    add(derivative_at(row.end, x), -along);
-    add(derivative_at(row.begin, x), along);
-    return stretch;
-}
-
-std::vector<Stretch> stretches_of(const std::vector<Row>& rows, const VecX& x) {
-    std::vector<Stretch> stretches;
-    for (const Row& row : rows) stretches.push_back(stretch_of(row, x));
-    return stretches;
-}
-
-// Returns how fast each row closes by pulls on every row [1/kg]; empty if that has no solution. A NodeCompliance has
-// three directions, so it takes three rows.
-Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
-    const size_t count = stretches.size(), triples = (count + 2) / 3;
-    std::vector<NodeCompliance> compliances(triples);
-    std::vector<const NodeCompliance*> all;
-    for (size_t t = 0; t < triples; t++) {
-        std::vector<NodeBlock> pulls;
-        for (size_t i = 3 * t; i < std::min(count, 3 * t + 3); i++)
-            for (const NodePull& pull : stretches[i].pull) {
-                pulls.push_back({pull.node, Mat3::Zero()});
-                pulls.back().block.col(Eigen::Index(i % 3)) = pull.along;
-            }
-        if (!make_compliance(*plant.step.workspace, plant.input.settings, pulls, compliances[t])) return {};
-        all.push_back(&compliances[t]);
+void let_fibres_give(Plant& plant, double h) {
+    constexpr double RATE = 0.02;  // [1/s]
+    const std::vector<Fibre>& list = plant.fibres->list;
+    if (plant.state.is_entangled) plant.state.fibre_give.resize(list.size(), 1);
+    bool gives = false;
+    for (size_t i = 0; i < plant.state.fibre_give.size(); i++) {
+        double& give = plant.state.fibre_give[i];
+        give = plant.state.is_entangled ? std::max(give, drawn_out(plant, list[i])) : std::max(1.0, give - RATE * h);
+        gives = gives || give > 1;
     }
-    Eigen::MatrixXd W(3 * triples, 3 * triples);
-    Eigen::Matrix3Xd spread;
-    std::vector<Mat3> blocks;
-    for (size_t by = 0; by < triples; by++) {
-        blocks.assign(triples, Mat3::Zero());
-        add_compliances(all, compliances[by], spread, blocks);
-        for (size_t t = 0; t < triples; t++) W.block<3, 3>(Eigen::Index(3 * t), Eigen::Index(3 * by)) = blocks[t];
-    }
-    W.conservativeResize(Eigen::Index(count), Eigen::Index(count));
-    return W;
+    if (!gives) plant.state.fibre_give.clear();
 }
 
-// Returns the impulses of pulls on all nodes.
-VecX spread(const Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls) {
-    VecX impulse = VecX::Zero(plant.state.motion.v.size());
-    for (size_t i = 0; i < stretches.size(); i++)
-        for (const NodePull& pull : stretches[i].pull) point(impulse, pull.node) += pulls[Eigen::Index(i)] * pull.along;
-    return impulse;
-}
-
-// Finds the change of the plant's velocities by pulls. False if it has no solution.
-bool velocity_by(Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls, VecX& dv) {
-    return respond(*plant.step.workspace, plant.input.settings, spread(plant, stretches, pulls), dv);
-}
-
-// Stops the lengthening of rows that pull.
-void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const Eigen::MatrixXd& W, VecX pulls) {
-    std::vector<Eigen::Index> taut;
-    VecX lengthening = VecX::Zero(pulls.size()), stops, dv;
-    for (Eigen::Index i = 0; i < pulls.size(); i++) {
-        if (pulls[i] > 0) taut.push_back(i);
-        for (const NodePull& pull : stretches[size_t(i)].pull)
-            lengthening[i] -= pull.along.dot(point(plant.state.motion.v, pull.node));
-    }
-    const Eigen::MatrixXd among_taut = W(taut, taut);
-    const VecX of_taut = lengthening(taut);
-    if (!solve_one_sided(among_taut, of_taut, stops)) return;
-    pulls.setZero();
-    for (size_t k = 0; k < taut.size(); k++) pulls[taut[k]] = stops[Eigen::Index(k)];
-    if (velocity_by(plant, stretches, pulls, dv)) plant.state.motion.v += dv;
-}
-
-// Goes only so far by pulls as the cage stores no more than where the solve left it, or where the step began and by the
-// work of loads: between pins or grabs that are too far apart, the linear response of pulls crumples it more in each
-// step.
-void take_back_crumpling(Plant& plant, const VecX& x_free, const VecX& v_free, double h) {
-    constexpr double LEAST = 0.1;   // share of the pulls that is tried [-]
-    constexpr double LIFT = 0.001;  // allowed error, as a share of the energy that lifts the plant by its size [-]
-    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
-    const auto stored_at = [&](const VecX& x) { return row.energy(elements_of(plant), x); };
-    Motion& motion = plant.state.motion;
-    const double free = stored_at(x_free);
-    double stored = stored_at(motion.x);
-    if (stored <= free) return;
-    const VecX way = motion.x - x_free, dv = motion.v - v_free;
-    const double before = stored_at(plant.step.x_good), error = LIFT * lifting_energy(plant);
-    const auto may_be_stored = [&] {
-        if (stored <= std::max(free, before) + error) return true;
-        const LoadWork work = work_of_loads(plant, h);
-        const double given = work.forces + work.grabs + work.air + work_of_weight(plant, way_of_step(plant));
-        return stored <= before + given + error;
-    };
-    double share = 1;
-    while (share > 0 && !may_be_stored()) {
-        share = share > LEAST ? share / 2 : 0;
-        motion.x = x_free + share * way;
-        motion.v = v_free + share * dv;
-        stored = stored_at(motion.x);
-    }
-    plant.state.fibre_force *= share;
-}
-
-// Pulls are internal forces, so the integrator keeps its history: started anew by implicit Euler after each step with
-// pulls, it would damp the vibration of a plant whose leaves are taut. Only the rates of generalized alpha at the
-// step's end do not include them.
-void go_on_from_here(Motion& motion, bool was_shaken) {
-    History& history = motion.history;
-    history.shaken = was_shaken;
-    if (!history.valid) return;
-    if (history.integrator == FROND_INTEGRATOR_GENERALIZED_ALPHA) {
-        history.valid = history.shaken = false;
-        return;
-    }
-    history.x_end = motion.x;
-    history.v_end = motion.v;
-}
-
-}  // namespace
-
-Fibres make_fibres(const Model& model, int order) {
+Fibres make_fibres(const Model& model, const TetNodes& nodes, const VecX& modelled) {
     constexpr double LEAST = 0.5;  // share of an organ's tensile stiffness that its cage has to lack [-]
     Fibres fibres;
     fibres.of_node.assign(model.chain.nodes.size(), -1);
     if (!model.calibrated) return fibres;
-    const std::vector<double> lack = lack_of_organs(model, order);
+    const std::vector<double> lack = lack_of_organs(model, nodes.order);
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
         if (node.parent < 0 || node.organ < 0 || lack[size_t(node.organ)] < LEAST) continue;
@@ -255,62 +143,16 @@ Fibres make_fibres(const Model& model, int order) {
         fibres.list.push_back(
             {int(i), (1 + SLACK) * length, lack[size_t(node.organ)] * model.sections[i].stretching() / length});
     }
+    if (fibres.list.empty()) return fibres;
+    for (const int capsule : nearest_capsules(model, nodes, modelled))
+        fibres.of_cage_node.push_back(capsule < 0 ? -1 : fibres.of_node[size_t(capsule)]);
     return fibres;
 }
 
 bool are_slack(Plant& plant) {
     if (!plant.fibres) return true;
     update_chain(plant);
-    return find_rows(plant).empty();
-}
-
-// Corrects positions first, in rounds, since pulls turn the fibres, which is of second order in the displacement.
-// Velocities are corrected separately: where a fibre becomes taut, bdf2 would have it rebound, and faster in the next
-// steps.
-static void pull_back(Plant& plant, double h, bool is_step) {
-    update_chain(plant);
-    if (plant.state.is_entangled || !plant.state.fibre_give.empty()) let_give(plant, h);
-    const std::vector<Row> rows = find_rows(plant);
-    if (rows.empty()) return;
-    const Eigen::Index count = Eigen::Index(rows.size());
-    const bool was_shaken = plant.state.motion.history.shaken;
-    const double reach = reach_of(*plant.step.workspace);
-    const VecX x_free = plant.state.motion.x, v_free = plant.state.motion.v;
-    VecX pulls = VecX::Zero(count), softness(count), dv;  // impulses [N s]; a row's stretch by its impulse [m/(N s)]
-    for (Eigen::Index i = 0; i < count; i++) softness[i] = 1 / (reach * rows[size_t(i)].stiffness);
-    std::vector<Stretch> stretches = stretches_of(rows, plant.state.motion.x);
-    Eigen::MatrixXd W;
-    for (int round = 0; round < ROUNDS; round++) {
-        W = couple(plant, stretches);
-        if (W.size() == 0) return;
-        const VecX known = pulls;
-        VecX wanted = W * known;
-        for (Eigen::Index i = 0; i < count; i++) wanted[i] += stretches[size_t(i)].over / reach;
-        Eigen::MatrixXd soft = W;
-        soft.diagonal() += softness / reach;
-        if (!solve_one_sided(soft, wanted, pulls) || !velocity_by(plant, stretches, pulls - known, dv)) return;
-        add_correction(*plant.step.workspace, dv, plant.state.motion);
-        stretches = stretches_of(rows, plant.state.motion.x);
-        double wrong = 0;
-        for (size_t i = 0; i < rows.size(); i++) {
-            const double drawn = softness[Eigen::Index(i)] * pulls[Eigen::Index(i)];
-            wrong = std::max(wrong, (stretches[i].over - drawn) / rows[i].length);
-        }
-        if (wrong < CLOSE) break;
-    }
-    plant.state.fibre_force = spread(plant, stretches, pulls) / reach;
-    stop_lengthening(plant, stretches, W, pulls);
-    if (is_step) take_back_crumpling(plant, x_free, v_free, h);
-    go_on_from_here(plant.state.motion, was_shaken);
-}
-
-void hold_lengths(Plant& plant, double h, bool is_step) {
-    plant.state.fibre_force.resize(0);
-    if (!plant.step.has_fibres || !plant.fibres || !plant.report.ok) return;
-    const Timer timer;
-    pull_back(plant, h, is_step);
-    plant.ms_fibres += timer.ms();
-    plant.report.ms_solve += timer.ms();
+    return find_fibre_rows(plant).empty();
 }
 
 }  // namespace frond

@@ -20,9 +20,10 @@ struct Fibre {
 // tensile stiffness. Shared by all plants of a model.
 struct Fibres {
     std::vector<Fibre> list;
-    std::vector<int> of_node;  // index into `list`; -1: none
+    std::vector<int> of_node;       // of a chain node: index into `list`; -1: none
+    std::vector<int> of_cage_node;  // the same for the capsule that a cage node is nearest to
 };
-Fibres make_fibres(const Model& model, int order);
+Fibres make_fibres(const Model& model, const TetNodes& nodes, const VecX& modelled);
 
 // Returns whether no fibre would pull at the plant's present position; updates chain_positions.
 bool are_slack(Plant& plant);

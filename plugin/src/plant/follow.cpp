@@ -53,7 +53,7 @@ Eigen::Matrix3Xd points_of(const std::vector<Vec3>& points) {
 
 }  // namespace
 
-Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modelled) {
+std::vector<int> nearest_capsules(const Model& model, const TetNodes& nodes, const VecX& modelled) {
     const Chain& chain = model.chain;
     const std::vector<std::vector<int>> organs = node_organs(model.cage, nodes);
     std::vector<std::vector<int>> capsules(model.organs.size());
@@ -64,9 +64,7 @@ Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modell
         if (chain.nodes[i].organ >= 0) capsules[size_t(chain.nodes[i].organ)].push_back(int(i));
     }
 
-    Follow follow;
-    follow.modelled = modelled;
-    follow.skin = make_skin(model);
+    std::vector<int> nearest;
     for (size_t n = 0; n < organs.size(); n++) {
         const Vec3 p = point(modelled, int(n));
         Place best;
@@ -78,7 +76,20 @@ Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modell
         };
         for (int organ : organs[n]) try_all(capsules[size_t(organ)]);
         if (best.node < 0) try_all(all);
-        if (best.node < 0) {
+        nearest.push_back(best.node);
+    }
+    return nearest;
+}
+
+Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modelled) {
+    const Chain& chain = model.chain;
+    Follow follow;
+    follow.modelled = modelled;
+    follow.skin = make_skin(model);
+    const std::vector<int> capsules = nearest_capsules(model, nodes, modelled);
+    for (size_t n = 0; n < capsules.size(); n++) {
+        const Vec3 p = point(modelled, int(n));
+        if (capsules[n] < 0) {
             // The chain has only roots.
             size_t nearest = 0;
             for (size_t i = 1; i < chain.nodes.size(); i++)
@@ -87,6 +98,7 @@ Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modell
             follow.attachments.push_back(rigid_attachment(chain, int(nearest), p));
             continue;
         }
+        const Place best = place_on(chain, capsules[n], p);
         const int before = chain.nodes[size_t(best.node)].parent;
         follow.nearest.push_back(best.along < 0.5 ? before : best.node);
         const bool inside = best.along > 0 && best.along < 1;

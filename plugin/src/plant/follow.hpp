@@ -18,6 +18,9 @@ struct Follow {
     Skin skin;                            // how the surface follows
 };
 
+// Returns, for each cage node, the chain node at the end of the nearest capsule of its own organs; -1: the chain has
+// only roots.
+std::vector<int> nearest_capsules(const Model& model, const TetNodes& nodes, const VecX& modelled);
 // Attaches each cage node to the nearest capsule of its own organs: to a cubic centre line through the capsule's two
 // nodes, along their axes, and across it to both rotations, blended smoothly. So the cage has no kinks where capsules
 // meet. Beyond a capsule's ends it is rigid with the node there.
