@@ -11,6 +11,7 @@
 #include "plant/fragment.hpp"
 #include "plant/load_work.hpp"
 #include "plant/modal.hpp"
+#include "plant/supports.hpp"
 #include "solve/solve.hpp"
 
 namespace frond {
@@ -92,6 +93,7 @@ struct PlantInput {
     VecX pin_target;                   // targets of pinned cage nodes, model frame [m]
     std::vector<int> anchor;           // chain node that holds each cage node if it is pinned
     std::vector<Spring> pin_springs;   // hold pinned cage nodes that are too few to hold a chain node
+    std::vector<Support> supports;     // hold chain nodes in place of pins
     std::shared_ptr<const Foot> foot;  // initial pinned, pin_target and anchor
 
     std::list<Grab> grabs;

@@ -66,11 +66,20 @@ struct History {
     VecX x_rate, v_rate;  // rates at its end [m/s], [m/s^2]: generalized_alpha
 };
 
+// A node that rotates about one axis only, as on a hinge, or about all but one, as in a fork.
+struct Guide {
+    int node;       // of the rotation vector
+    bool is_hinge;  // it turns about the axis only; else it does not turn about the axis
+    Vec3 axis;      // of length one, in the frame of the nodes
+    Vec3 made_at;   // rotation vector from which turns count
+};
+
 // All of a plant's state that a step changes. Nodes are in the frame of the rest positions.
 struct Motion {
     VecX x, v;                    // node_count*3 [m], [m/s]
     std::vector<uint8_t> pinned;  // node_count
     VecX pin_target;              // pinned nodes at the end of the step, node_count*3 [m]
+    std::vector<Guide> guides;    // of nodes that are held in part
     History history;              // set valid = false after replacing x or v
 };
 // Returns the first pinned node from the i-th on; the size of `pinned` if there is none.

@@ -1,0 +1,100 @@
+// In: a plant whose mechanics move the chain, and how some of its nodes are held. Out: which blocks of its motion are
+// pinned, as a whole, and which rotations are guided.
+#include "plant/supports.hpp"
+
+#include <algorithm>
+
+#include "core/assert.hpp"
+#include "mechanics/rotation.hpp"
+#include "plant/pins.hpp"
+#include "solve/guides.hpp"
+
+namespace frond {
+
+static bool is_guide(const Support& support) {
+    return support.held_turns == FROND_HELD_TURNS_ABOUT_AXIS || support.held_turns == FROND_HELD_TURNS_ACROSS_AXIS;
+}
+
+static Guide guide_by(const Support& support) {
+    const bool is_hinge = support.held_turns == FROND_HELD_TURNS_ACROSS_AXIS;
+    return {2 * support.chain_node + 1, is_hinge, support.axis, support.turn};
+}
+
+const Support* support_of(const Plant& plant, int chain_node) {
+    for (const Support& support : plant.input.supports)
+        if (support.chain_node == chain_node) return &support;
+    return nullptr;
+}
+
+// Steps go on without history and with what is held at rest.
+static void hold_anew(Plant& plant) {
+    Motion& motion = plant.state.motion;
+    motion.history.valid = motion.history.shaken = false;
+    plant.state.stepped_by = 0;
+    plant.input.pins_changed = true;
+    apply_pins(plant);
+    const int count = int(motion.pinned.size());
+    for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1)) {
+        const bool stays = point(motion.pin_target, i) == point(motion.x, i);
+        if (stays && support_of(plant, i / 2)) point(motion.v, i).setZero();
+    }
+    for (const Guide& guide : motion.guides) {
+        auto rate = point(motion.v, guide.node);
+        rate -= Vec3(held_part(guide, point(motion.x, guide.node)) * rate);
+    }
+}
+
+static void erase_support(Plant& plant, int chain_node) {
+    std::vector<Support>& all = plant.input.supports;
+    const auto is_its = [&](const Support& support) { return support.chain_node == chain_node; };
+    all.erase(std::remove_if(all.begin(), all.end(), is_its), all.end());
+}
+
+void set_support(Plant& plant, int chain_node, bool holds_place, frond_held_turns held_turns, const Vec3& axis) {
+    end_modal(plant);
+    FROND_ASSERT(plant.follow && !plant.state.is_compressed);
+    erase_support(plant, chain_node);
+    const VecX& x = plant.state.motion.x;
+    plant.input.supports.push_back(
+        {chain_node, holds_place, held_turns, axis, point(x, 2 * chain_node), point(x, 2 * chain_node + 1)});
+    hold_anew(plant);
+}
+
+void remove_support(Plant& plant, int chain_node) {
+    if (!support_of(plant, chain_node)) return;
+    erase_support(plant, chain_node);
+    put_pins_at_node(plant, chain_node);
+    hold_anew(plant);
+}
+
+void hold_supported(const std::vector<Support>& supports, Motion& motion) {
+    for (const Support& support : supports) {
+        const int place = 2 * support.chain_node, turn = place + 1;
+        motion.pinned[size_t(place)] = support.holds_place;
+        motion.pinned[size_t(turn)] = support.held_turns == FROND_HELD_TURNS_ALL;
+        if (support.holds_place) point(motion.pin_target, place) = support.place;
+        if (support.held_turns == FROND_HELD_TURNS_ALL)
+            point(motion.pin_target, turn) = wound_as(Vec3(point(motion.x, turn)), support.turn);
+        if (is_guide(support)) motion.guides.push_back(guide_by(support));
+    }
+}
+
+// A turn that the guide allows leaves it as it is: what a fork allows depends on where it was made.
+void carry_supports(Plant& plant) {
+    constexpr double NEAR = 1e-9;  // [rad]
+    for (Support& support : plant.input.supports) {
+        const Vec3 turn = point(plant.state.motion.x, 2 * support.chain_node + 1);
+        support.place = point(plant.state.motion.x, 2 * support.chain_node);
+        if (!is_guide(support) || !((guided(guide_by(support), turn) - turn).norm() < NEAR)) support.turn = turn;
+    }
+}
+
+void drop_lost_supports(Plant& plant) {
+    std::vector<Support>& all = plant.input.supports;
+    const auto is_lost = [&](const Support& support) {
+        return fragment_of_chain_node(plant, size_t(support.chain_node)) != nullptr;
+    };
+    all.erase(std::remove_if(all.begin(), all.end(), is_lost), all.end());
+}
+
+}  // namespace frond
