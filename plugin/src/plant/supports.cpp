@@ -79,6 +79,15 @@ void hold_supported(const std::vector<Support>& supports, Motion& motion) {
     }
 }
 
+bool hold_several_places(const Plant& plant) {
+    const auto holds_place = [](const Support& support) { return support.holds_place; };
+    if (std::none_of(plant.input.supports.begin(), plant.input.supports.end(), holds_place)) return false;
+    const std::vector<uint8_t>& pinned = plant.state.motion.pinned;
+    int places = 0;
+    for (size_t i = 0; i < pinned.size(); i += 2) places += pinned[i];
+    return places > 1;
+}
+
 // A turn that the guide allows leaves it as it is: what a fork allows depends on where it was made.
 void carry_supports(Plant& plant) {
     constexpr double NEAR = 1e-9;  // [rad]

@@ -29,6 +29,9 @@ void set_support(Plant& plant, int chain_node, bool holds_place, frond_held_turn
 void remove_support(Plant& plant, int chain_node);
 // Holds the supported nodes of a motion of the chain.
 void hold_supported(const std::vector<Support>& supports, Motion& motion);
+// Returns whether supports hold the plant at one of several places. What a solve gave is then no step that keeps each
+// segment's strain: rebuilt from one held node on, it misses the other, and the last segment takes all of that.
+bool hold_several_places(const Plant& plant);
 // Lets supports hold their nodes where these have been put.
 void carry_supports(Plant& plant);
 // Drops the supports of what has come off.
