@@ -221,7 +221,7 @@ int how_held(const Plant& plant, int capsule) {
         const int anchor = plant.input.anchor[n];
         if (plant.input.pinned[n] && !support_of(plant, anchor)) hold(anchor);
     }
-    for (const Support& support : plant.input.supports)
+    for (const Support& support : supports_of(plant))
         if (support.holds_place) hold(support.chain_node);
     return held;
 }

@@ -109,7 +109,6 @@ void put_pins_at_node(Plant& plant, int chain_node) {
 
 static void pin_chain(Plant& plant) {
     std::fill(plant.state.motion.pinned.begin(), plant.state.motion.pinned.end(), uint8_t(0));
-    plant.state.motion.guides.clear();
     plant.input.pin_springs.clear();
     std::map<int, PinGroup> groups;  // by chain node
     PinGroup ground;                 // all nodes that the plant stands on
@@ -136,7 +135,7 @@ static void pin_chain(Plant& plant) {
             plant.input.pin_springs.push_back(
                 {plant.follow->attachments[size_t(group.nodes[k])], group.to[k], pin_stiffness(plant)});
     }
-    hold_supported(plant.input.supports, plant.state.motion);
+    hold_supported(supports_of(plant), plant.state.motion);
 }
 
 // Compares rotation vectors on the same side of the half turn.

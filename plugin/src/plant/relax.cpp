@@ -50,6 +50,7 @@ void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     Loads loads;
     loads.gravity = plant.step.loads.gravity;
+    loads.guides = &guides_of(plant);
     if (loads.gravity.isZero(0) && plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
     if (pins_moved)
         hold_still(plant);

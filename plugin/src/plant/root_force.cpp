@@ -108,7 +108,7 @@ Wrench root_force(const Plant& plant, const Vec3& gravity, frond_effects effects
         else
             hold(forces.on_place(i), point(motion.x, i));
     }
-    for (const Guide& guide : motion.guides) held.moment += forces.on_guided(guide);
+    for (const Guide& guide : guides_of(plant)) held.moment += forces.on_guided(guide);
     for (const Spring& spring : plant.input.pin_springs) {
         const Vec3 place = attachment_place(spring.attachment, motion.x);
         hold(spring.stiffness * (spring.target - place), place);
@@ -123,7 +123,7 @@ Wrench support_force(const Plant& plant, const Vec3& gravity, frond_effects effe
     Wrench held;
     if (motion.pinned[size_t(place)]) held.force = plant.rotation * forces.on_place(place);
     if (motion.pinned[size_t(turn)]) held.moment = plant.rotation * forces.on_turn(turn);
-    for (const Guide& guide : motion.guides)
+    for (const Guide& guide : guides_of(plant))
         if (guide.node == turn) held.moment = plant.rotation * forces.on_guided(guide);
     return held;
 }

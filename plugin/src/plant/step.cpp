@@ -23,6 +23,7 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
     Loads& loads = plant.step.loads;
     loads.gravity = gravity_in(plant, surroundings, effects);
     loads.springs = plant.input.pin_springs;
+    loads.guides = &guides_of(plant);
     loads.force.resize(0);
     if (!(effects & FROND_EFFECT_USER_FORCE)) return;
 

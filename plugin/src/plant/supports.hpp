@@ -3,13 +3,11 @@
 
 #include <vector>
 
-#include "core/types.hpp"
-#include "frond/frond.h"
+#include "solve/solve.hpp"
 
 namespace frond {
 
 struct Plant;
-struct Motion;
 
 // Places and turns are of the model's frame.
 struct Support {
@@ -21,6 +19,16 @@ struct Support {
     Vec3 turn;   // rotation vector of the node as it was when it was supported
 };
 
+// Those of a plant, and what follows from them.
+struct Supports {
+    std::vector<Support> list;
+    std::vector<Guide> guides;
+};
+
+const std::vector<Support>& supports_of(const Plant& plant);
+const std::vector<Guide>& guides_of(const Plant& plant);
+// Replaces all supports by others, from the next apply_pins() on.
+void give_supports(Plant& plant, std::vector<Support> supports);
 // Returns the support of a chain node; null if it has none.
 const Support* support_of(const Plant& plant, int chain_node);
 // Supports a chain node as it is now, in place of what else would hold it; or leaves it to pins and the ground, from

@@ -10,6 +10,13 @@
 
 namespace frond {
 
+bool guides_are_sound(const System& system, const std::vector<Guide>& guides) {
+    if (!guides.empty() && !system.row->moves_chain) return false;
+    for (const Guide& guide : guides)
+        if (guide.node < 0 || guide.node >= system.elements->node_count) return false;
+    return true;
+}
+
 // Returns the rotation vector from where the guide was made.
 static Vec3 turn_since(const Guide& guide, const Vec3& turn) {
     return rotation_vector<double>(Mat3(rotation_of<double>(turn) * rotation_of<double>(guide.made_at).transpose()));

@@ -5,6 +5,7 @@
 
 namespace frond {
 
+bool guides_are_sound(const System& system, const std::vector<Guide>& guides);
 // Returns the rotation vector that a guide allows next to another one.
 Vec3 guided(const Guide& guide, const Vec3& turn);
 // Returns the projection of a change of that rotation vector on what is held of it.

@@ -66,6 +66,16 @@ struct History {
     VecX x_rate, v_rate;  // rates at its end [m/s], [m/s^2]: generalized_alpha
 };
 
+// All of a plant's state that a step changes. Nodes are in the frame of the rest positions.
+struct Motion {
+    VecX x, v;                    // node_count*3 [m], [m/s]
+    std::vector<uint8_t> pinned;  // node_count
+    VecX pin_target;              // pinned nodes at the end of the step, node_count*3 [m]
+    History history;              // set valid = false after replacing x or v
+};
+// Returns the first pinned node from the i-th on; the size of `pinned` if there is none.
+int next_pinned(const Motion& motion, int i);
+
 // A node that rotates about one axis only, as on a hinge, or about all but one, as in a fork.
 struct Guide {
     int node;       // of the rotation vector
@@ -74,17 +84,6 @@ struct Guide {
     Vec3 made_at;   // rotation vector from which turns count
 };
 
-// All of a plant's state that a step changes. Nodes are in the frame of the rest positions.
-struct Motion {
-    VecX x, v;                    // node_count*3 [m], [m/s]
-    std::vector<uint8_t> pinned;  // node_count
-    VecX pin_target;              // pinned nodes at the end of the step, node_count*3 [m]
-    std::vector<Guide> guides;    // of nodes that are held in part
-    History history;              // set valid = false after replacing x or v
-};
-// Returns the first pinned node from the i-th on; the size of `pinned` if there is none.
-int next_pinned(const Motion& motion, int i);
-
 // Loads during a step, gathered by the effects.
 struct Loads {
     VecX force;                   // node_count*3, empty: none [N]
@@ -92,6 +91,7 @@ struct Loads {
     std::vector<Spring> springs;
     bool springs_are_far = false;  // some pull from farther than their derivative holds for: see lead_pin_springs()
     std::vector<Drag> drags;
+    const std::vector<Guide>* guides = nullptr;  // borrowed; null: no node is held in part
 };
 
 struct SolveReport {

@@ -22,8 +22,7 @@ bool input_is_sound(const System& system, const StepInput& input) {
     if (motion.x.size() != n || motion.v.size() != n || (force.size() != 0 && force.size() != n)) return false;
     if (!motion.pinned.empty() && (motion.pinned.size() * 3 != size_t(n) || motion.pin_target.size() != n))
         return false;
-    for (const Guide& guide : motion.guides)
-        if (guide.node < 0 || guide.node >= system.elements->node_count || !system.row->moves_chain) return false;
+    if (input.loads.guides && !guides_are_sound(system, *input.loads.guides)) return false;
     return are_finite(force) && input.loads.gravity.allFinite() && springs_are_sound(system, input.loads.springs) &&
            drags_are_sound(system, input.loads.drags);
 }
@@ -44,7 +43,8 @@ void prepare(Workspace& workspace, const StepInput& input) {
     for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1))
         workspace.held[size_t(i)] = 1;
     carry_held(workspace, input);
-    workspace.guides = motion.guides;
+    workspace.guides.clear();
+    if (input.loads.guides) workspace.guides = *input.loads.guides;
     look_at_guides(workspace, motion.x);
     keep_free_parts(workspace, workspace.v_start);
     // The rows of either mass matrix add up to the lumped mass.

@@ -68,16 +68,14 @@ void put_modal(const SavedModal& saved, Plant& plant) {
 void put_plant(SavedPlant& saved, PlantBody& body) {
     Plant& plant = *body.plant;
     end_modal(plant);
-    plant.input.supports.clear();
+    give_supports(plant, {});
     set_mechanics(plant, saved.which);
     if (!saved.modal.empty()) put_modal(saved.modal.front(), plant);
     plant.input.pinned = std::move(saved.pinned);
     plant.input.pin_target = std::move(saved.pin_target);
     plant.input.anchor = std::move(saved.anchor);
-    plant.input.supports = std::move(saved.supports);
-    plant.input.pins_changed = true;
-    apply_pins(plant);  // makes the pins' springs and the supports' guides; the rest is in the motion
-    saved.motion.guides = std::move(plant.state.motion.guides);
+    give_supports(plant, std::move(saved.supports));
+    apply_pins(plant);  // makes the pins' springs; the rest is in the motion
     plant.state.motion = std::move(saved.motion);
     plant.state.trend = std::move(saved.trend);
     plant.state.blend_out = std::move(saved.blend_out);
