@@ -118,7 +118,8 @@ def test_state_surface_and_forces_are_arrays(stem):
     plant.add_distributed_load(0, (0.1, 0, 0))
     plant.set_support(0, "across_axis", axis=(0, 0, 2))
     world.step(0.1)
-    assert plant.support_force(0).force[1] > 0 and plant.support_force(0).moment[2] == 0
+    held = plant.support_force(0)
+    assert held.force[1] > 0 and abs(held.moment[2]) < 1e-12
     with pytest.raises(frond.Error, match="axis"):
         plant.set_support(0, frond.HeldTurns.ABOUT_AXIS, axis=(0, 0, 0))
     plant.remove_support(0)
