@@ -179,6 +179,12 @@ void load_chain(Stage& s) {
     const frond_plant plant = s.plant();
     frond_plant_add_chain_load(plant, s.input.integer(), s.input.vec(), s.input.vec());
     frond_plant_add_distributed_load(plant, s.input.integer(), s.input.vec());
+    const frond_support support = {s.input.integer() % 2 == 0, frond_held_turns(s.input.integer()), s.input.vec()};
+    const int supported = s.input.integer();
+    frond_vec3 held;
+    frond_plant_set_support(plant, supported, &support);
+    frond_plant_get_support_force(plant, supported, &held, nullptr);
+    if (s.input.integer() % 2 == 0) frond_plant_set_support(plant, supported, nullptr);
     std::vector<frond_section_force> forces(size_t(frond_plant_get_capsule_count(plant)));
     frond_plant_get_section_forces(plant, forces.data(), int(forces.size()));
     std::vector<frond_chain_state> states(size_t(frond_plant_get_chain_node_count(plant)));

@@ -136,6 +136,42 @@ typedef struct frond_section_force {
  * fragments. capsule_count must be the plant's; out: capsule_count. */
 FROND_API frond_result frond_plant_get_section_forces(frond_plant plant, frond_section_force* out, int capsule_count);
 
+/* ---- supports: chain nodes on hinges, ball joints and forks -------------------------------------------------------
+ */
+
+/* Which turns of a chain node a support holds. */
+typedef enum frond_held_turns {
+    FROND_HELD_TURNS_NONE,        /* with its place held a ball joint */
+    FROND_HELD_TURNS_ABOUT_AXIS,  /* that about an axis, such as twist about a beam's: a fork */
+    FROND_HELD_TURNS_ACROSS_AXIS, /* all but that about an axis: a hinge */
+    FROND_HELD_TURNS_ALL,         /* a clamp */
+    FROND_HELD_TURNS_COUNT
+} frond_held_turns;
+
+/* How a chain node is held. A turn is held about an axis if the rotation vector of the node, from where it was when it
+ * was supported, has no part along that axis (the twist of swing and twist); it is held across the axis if the vector
+ * is along it. */
+typedef struct frond_support {
+    bool holds_place; /* the node stays where it is */
+    frond_held_turns held_turns;
+    frond_vec3 axis; /* world frame, of any length but zero; not read if no turn or every turn is held */
+} frond_support;
+/* Supports a chain node as it is now, place and rotation, in place of pins and the ground, which do not hold that node
+ * as long as it has a support; one that holds nothing lets it go. Null takes the support away: pins and the ground then
+ * hold the node where it is by then. `support` is copied. Supports are ideal: they do no work, and parts that are held
+ * do not move. They go along with frond_plant_set_transform, with frond_plant_set_state and frond_plant_set_chain_state
+ * to where the node is put, and are gone after frond_plant_reset and with what breaks off. The plant wakes, is stepped
+ * alone, and is never in FROND_DETAIL_MODAL. UNSUPPORTED with tets, and for a plant that a nearer detail makes one of
+ * tets; frond_plant_set_mechanics refuses tets as long as there are supports. A plant that stands on several roots has
+ * a chain node for each, all without a parent. Where supports hold it at one of several places, a step has up to ten
+ * Newton iterations. */
+FROND_API frond_result frond_plant_set_support(frond_plant plant, int chain_node, const frond_support* support);
+/* Computes the force [N] and the moment about the node [N m] of a support on its node, in the world's frame, as
+ * frond_plant_get_root_force does, which includes them. Loads on the node itself, such as a half of the distributed
+ * load beside it, go past the plant into the support and are not part of it. Either may be null. */
+FROND_API frond_result frond_plant_get_support_force(frond_plant plant, int chain_node, frond_vec3* force,
+                                                     frond_vec3* moment);
+
 /* ---- energy ledger: what was given to plants, and what became of it -----------------------------------------------
  */
 

@@ -116,6 +116,15 @@ def test_state_surface_and_forces_are_arrays(stem):
     plant.set_chain_state(states)
     plant.add_chain_load(plant.chain_node_count - 1, moment=(0, 0, 1e-3))
     plant.add_distributed_load(0, (0.1, 0, 0))
+    plant.set_support(0, "across_axis", axis=(0, 0, 2))
+    world.step(0.1)
+    held = plant.support_force(0)
+    assert held.force[1] > 0 and abs(held.moment[2]) < 1e-12
+    with pytest.raises(frond.Error, match="axis"):
+        plant.set_support(0, frond.HeldTurns.ABOUT_AXIS, axis=(0, 0, 0))
+    plant.remove_support(0)
+    with pytest.raises(frond.Error, match="no support"):
+        plant.support_force(0)
     assert len(plant.section_forces) == plant.capsule_count and plant.section_forces[0].tension < 0
     plant.set_plastic(plant.get_plastic())
     plant.pin(plant.node_count - 1)

@@ -1,7 +1,8 @@
-// frond_plant_*: loads, state and section forces of the chain.
+// frond_plant_*: loads, supports, state and section forces of the chain.
 #include "api/call.hpp"
 #include "api/handles.hpp"
 #include "plant/chain_state.hpp"
+#include "plant/root_force.hpp"
 
 using namespace frond;
 
@@ -20,6 +21,30 @@ void check_index(int index, int count, const char* name) {
 void check_moves_chain(const Plant& plant) {
     if (!plant.follow)
         fail(FROND_RESULT_UNSUPPORTED, "the plant is moved by tets; call frond_plant_set_mechanics with rods first");
+}
+
+// Returns the axis in the world's frame, of length one; any if a support needs none.
+Vec3 checked_axis(const frond_support& support) {
+    check_row(number_of(support.held_turns), FROND_HELD_TURNS_COUNT, "held_turns");
+    if (support.held_turns == FROND_HELD_TURNS_NONE || support.held_turns == FROND_HELD_TURNS_ALL) return Vec3::UnitY();
+    check_vec(support.axis, "axis");
+    const double length = to_vec(support.axis).norm();
+    if (!(length > 1e-9))
+        fail(FROND_RESULT_BAD_ARGUMENT, "axis has no direction; give the one that held_turns is about");
+    return to_vec(support.axis) / length;
+}
+
+// Refuses a plant that may become one of tets by a change of detail, and a node that went with a fragment.
+void check_may_be_supported(const PlantBody& body, int chain_node) {
+    const Plant& plant = *body.plant;
+    check_index(chain_node, chain_node_count_of(plant), "chain_node");
+    check_moves_chain(plant);
+    if (!mechanics(body.level.own).moves_chain)
+        fail(FROND_RESULT_UNSUPPORTED,
+             "the plant is one of tets as soon as its detail is full; call "
+             "frond_plant_set_mechanics with rods first");
+    if (fragment_of_chain_node(plant, size_t(chain_node)))
+        fail(FROND_RESULT_BAD_ARGUMENT, "chain node %d has come off with a fragment", chain_node);
 }
 
 ChainNodeState checked(const frond_chain_state& state) {
@@ -58,6 +83,34 @@ frond_result frond_plant_add_distributed_load(frond_plant plant, int capsule, fr
         check_index(capsule, int(body.capsules().size()), "capsule");
         check_vec(force_per_length, "force_per_length [N/m]");
         add_distributed_load(awaken(body), size_t(capsule), to_vec(force_per_length));
+    });
+}
+
+frond_result frond_plant_set_support(frond_plant plant, int chain_node, const frond_support* support) {
+    return call([&] {
+        PlantBody& body = get(plant);
+        check_may_be_supported(body, chain_node);
+        if (!support) return remove_support(awaken(body), chain_node);
+        const Vec3 axis = checked_axis(*support);
+        Plant& p = awaken(body);
+        set_support(p, chain_node, support->holds_place, support->held_turns, p.rotation.conjugate() * axis);
+    });
+}
+
+frond_result frond_plant_get_support_force(frond_plant plant, int chain_node, frond_vec3* force, frond_vec3* moment) {
+    return call([&] {
+        for (frond_vec3* out : {force, moment})
+            if (out) *out = {};
+        PlantBody& body = get(plant);
+        check_index(chain_node, chain_node_count_of(*body.plant), "chain_node");
+        if (!support_of(*body.plant, chain_node))
+            fail(FROND_RESULT_BAD_ARGUMENT, "chain node %d has no support; call frond_plant_set_support", chain_node);
+        const Plant& p = *look_at(body).plant;
+        const bool has_weight = p.input.effects & body.world->effects & FROND_EFFECT_GRAVITY;
+        const Vec3 gravity = has_weight ? gravity_of(*body.world) : Vec3(Vec3::Zero());
+        const Wrench held = support_force(p, gravity, body.world->effects, chain_node);
+        if (force) *force = from_vec(held.force);
+        if (moment) *moment = from_vec(held.moment);
     });
 }
 

@@ -144,6 +144,9 @@ frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics which)
     return call([&] {
         PlantBody& body = get(plant);
         check_row(number_of(which), FROND_MECHANICS_COUNT, "mechanics");
+        if (body.plant->input.supports && !mechanics(which).moves_chain)
+            fail(FROND_RESULT_UNSUPPORTED,
+                 "supports hold rods, not tets; take them away by frond_plant_set_support with null first");
         set_mechanics(awaken(body), which);
         body.level.own = which;
         body.level.now = FROND_DETAIL_FULL;

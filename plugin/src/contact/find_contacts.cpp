@@ -208,16 +208,21 @@ int way_along(const Contact& contact) {
     return along > least ? 1 : along < -least ? -1 : 0;
 }
 
-// Returns how pins hold a capsule: 2 at one of its own nodes, 1 farther down towards the root, 0 not at all.
+// Returns how pins and supports hold a capsule: 2 at one of its own nodes, 1 farther down towards the root, 0 not at
+// all.
 int how_held(const Plant& plant, int capsule) {
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
     const std::vector<uint8_t> path = path_down(plant, end);
     int held = 0;
+    const auto hold = [&, begin = begin, end = end](int node) {
+        if (path[size_t(node)]) held = std::max(held, node == begin || node == end ? 2 : 1);
+    };
     for (size_t n = 0; n < plant.input.pinned.size(); n++) {
         const int anchor = plant.input.anchor[n];
-        if (plant.input.pinned[n] && path[size_t(anchor)])
-            held = std::max(held, anchor == begin || anchor == end ? 2 : 1);
+        if (plant.input.pinned[n] && !support_of(plant, anchor)) hold(anchor);
     }
+    for (const Support& support : supports_of(plant))
+        if (support.holds_place) hold(support.chain_node);
     return held;
 }
 

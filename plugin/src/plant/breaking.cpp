@@ -125,6 +125,7 @@ void let_rest(Plant& plant) {
     Motion& motion = plant.state.motion;
     for (size_t i = 0; i < plant.state.parting->of_node.size(); i++)
         if (plant.state.parting->of_node[i] >= 0) plant.input.pinned[i] = 0;
+    drop_lost_supports(plant);
     const VecX& mass = node_mass_of(*plant.system);
     const int step = plant.follow ? 2 : 1;
     for (int i = 0; i < mass.size(); i += step)

@@ -143,7 +143,7 @@ void begin_modal(Plant& plant) {
 
 bool sways_on_its_roots(const Plant& plant) {
     return plant.input.stands_on_roots && !plant.input.pins_are_own && plant.state.fragments.empty() &&
-           plant.input.grabs.empty() && !plant.input.has_user_force;
+           !plant.input.supports && plant.input.grabs.empty() && !plant.input.has_user_force;
 }
 
 void keep_only_modes(Plant& plant) {

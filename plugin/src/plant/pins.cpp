@@ -1,6 +1,6 @@
 // Pins: cage nodes held where they are put. If the mechanics move the cage, they are nodes of the mechanics. If it
 // follows the chain, three or more pinned nodes that are attached to one chain node hold that, position and rotation;
-// fewer are held by springs much stiffer than the plant.
+// fewer are held by springs much stiffer than the plant. Pins do not hold a chain node that has a support.
 #include "plant/pins.hpp"
 
 #include <algorithm>
@@ -77,6 +77,13 @@ static int chain_node_that_holds(const Plant& plant, size_t node) {
     return plant.input.foot->pinned[node] ? plant.input.anchor[node] : plant.follow->nearest[node];
 }
 
+// Returns where a cage node is that is rigid with a chain node.
+static Vec3 place_rigid_with(const Plant& plant, int chain_node, int node) {
+    const VecX& x = plant.state.motion.x;
+    const Vec3 arm = point(plant.follow->modelled, node) - plant.model->chain.nodes[size_t(chain_node)].position;
+    return point(x, 2 * chain_node) + rotation_of<double>(point(x, 2 * chain_node + 1)) * arm;
+}
+
 void place_pinned_as_held(const Plant& plant, VecX& places) {
     const Motion& motion = plant.state.motion;
     if (!plant.follow) return;
@@ -84,9 +91,20 @@ void place_pinned_as_held(const Plant& plant, VecX& places) {
         if (!plant.input.pinned[n]) continue;
         const int by = chain_node_that_holds(plant, n);
         if (!motion.pinned[size_t(2 * by)]) continue;
-        const Vec3 arm = point(plant.follow->modelled, int(n)) - plant.model->chain.nodes[size_t(by)].position;
-        point(places, int(n)) = point(motion.x, 2 * by) + rotation_of<double>(point(motion.x, 2 * by + 1)) * arm;
+        point(places, int(n)) = place_rigid_with(plant, by, int(n));
     }
+}
+
+void put_pins_at_node(Plant& plant, int chain_node) {
+    constexpr double NEAR = 1e-9;  // distance over the plant's size [-]
+    VecX places = plant.input.pin_target;
+    for (size_t n = 0; n < plant.input.pinned.size(); n++) {
+        if (!plant.input.pinned[n] || chain_node_that_holds(plant, n) != chain_node) continue;
+        point(places, int(n)) = place_rigid_with(plant, chain_node, int(n));
+    }
+    const double way = (places - plant.input.pin_target).lpNorm<Eigen::Infinity>();
+    plant.input.pins_are_own |= !(way < NEAR * double(plant.size));
+    plant.input.pin_target = places;
 }
 
 static void pin_chain(Plant& plant) {
@@ -109,6 +127,7 @@ static void pin_chain(Plant& plant) {
         for (size_t i = 0; i < nodes.size(); i++)
             if (is_root(i)) groups[int(i)];
     for (const auto& [chain_node, group] : groups) {
+        if (support_of(plant, chain_node)) continue;
         if (hold_chain_node(plant, chain_node, group)) continue;
         const bool stands = nodes[size_t(chain_node)].parent < 0 && (group.stands || group.nodes.empty());
         if (stands && hold_chain_node(plant, chain_node, ground)) continue;
@@ -116,6 +135,7 @@ static void pin_chain(Plant& plant) {
             plant.input.pin_springs.push_back(
                 {plant.follow->attachments[size_t(group.nodes[k])], group.to[k], pin_stiffness(plant)});
     }
+    hold_supported(supports_of(plant), plant.state.motion);
 }
 
 // Compares rotation vectors on the same side of the half turn.

@@ -12,6 +12,8 @@ void unpin_node(Plant& plant, int node);
 void move_pin(Plant& plant, int node, const Vec3& target);
 // Transfers the pins to the nodes of the mechanics.
 void apply_pins(Plant& plant);
+// Moves pins to where their cage nodes are rigid with the chain node that is to hold them from now on.
+void put_pins_at_node(Plant& plant, int chain_node);
 // Moves pinned cage nodes that a chain holds by one of its nodes to where they are rigid with that.
 void place_pinned_as_held(const Plant& plant, VecX& places);
 // Lets the springs of pins that were put far away pull only part of that way in the coming step. Returns whether there

@@ -11,6 +11,7 @@
 #include "plant/fragment.hpp"
 #include "plant/load_work.hpp"
 #include "plant/modal.hpp"
+#include "plant/supports.hpp"
 #include "solve/solve.hpp"
 
 namespace frond {
@@ -88,11 +89,12 @@ struct PlantInput {
     frond_collision collision = FROND_COLLISION_ORGANS;
     void* user = nullptr;
 
-    std::vector<uint8_t> pinned;       // one per cage node
-    VecX pin_target;                   // targets of pinned cage nodes, model frame [m]
-    std::vector<int> anchor;           // chain node that holds each cage node if it is pinned
-    std::vector<Spring> pin_springs;   // hold pinned cage nodes that are too few to hold a chain node
-    std::shared_ptr<const Foot> foot;  // initial pinned, pin_target and anchor
+    std::vector<uint8_t> pinned;               // one per cage node
+    VecX pin_target;                           // targets of pinned cage nodes, model frame [m]
+    std::vector<int> anchor;                   // chain node that holds each cage node if it is pinned
+    std::vector<Spring> pin_springs;           // hold pinned cage nodes that are too few to hold a chain node
+    std::unique_ptr<const Supports> supports;  // hold chain nodes in place of pins; null: there are none
+    std::shared_ptr<const Foot> foot;          // initial pinned, pin_target and anchor
 
     std::list<Grab> grabs;
     std::unique_ptr<HostForces> forces;  // null: none yet

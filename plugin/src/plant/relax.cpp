@@ -9,6 +9,7 @@
 
 #include "plant/guard.hpp"
 #include "plant/pins.hpp"
+#include "plant/supports.hpp"
 
 namespace frond {
 
@@ -50,6 +51,7 @@ static bool take_steps(Plant& plant, SolveSettings& settings, double bound) {
     Motion& motion = plant.state.motion;
     Loads loads;
     loads.gravity = plant.step.loads.gravity;
+    loads.guides = &guides_of(plant);
     if (loads.gravity.isZero(0) && plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
     double stored = stored_energy(plant).potential;
     if (stored <= bound) return false;

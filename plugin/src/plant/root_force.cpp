@@ -5,6 +5,7 @@
 
 #include "mechanics/rotation.hpp"
 #include "plant/pins.hpp"
+#include "solve/guides.hpp"
 #include "solve/integrator.hpp"
 
 namespace frond {
@@ -61,31 +62,70 @@ static VecX forces_on_nodes(const Plant& plant, frond_effects effects, const Vec
     return pull;
 }
 
+// Forces on the nodes of a chain or a cage that hold them.
+struct HoldingForces {
+    const Plant& plant;
+    Vec3 weight;  // acceleration, model frame [m/s^2]
+    HeldMotion motion;
+    VecX pull;  // on all nodes, but of what holds them [N]
+
+    HoldingForces(const Plant& plant, const Vec3& gravity, frond_effects effects)
+        : plant(plant),
+          weight(plant.rotation.conjugate() * gravity),
+          motion(motion_of_held(plant)),
+          pull(forces_on_nodes(plant, plant.input.effects & effects, motion.v)) {}
+    bool is_turn(int node) const { return plant.system->row->moves_chain && node % 2 == 1; }
+    // Returns the force on a pinned place.
+    Vec3 on_place(int node) const {
+        const double mass = node_mass_of(*plant.system)[node];
+        Vec3 force = -point(pull, node) - mass * weight;
+        if (motion.acceleration.size() > 0) force += mass * point(motion.acceleration, node);
+        return force;
+    }
+    // Returns the moment on a rotation, of which a part is held.
+    Vec3 on_turn(int node, const Mat3& held = Mat3::Identity()) const {
+        const Vec3 turn = point(plant.state.motion.x, node);
+        return -inverse_rate_matrix<double>(turn).transpose() * (held * point(pull, node));
+    }
+    Vec3 on_guided(const Guide& guide) const {
+        return on_turn(guide.node, held_part(guide, point(plant.state.motion.x, guide.node)));
+    }
+};
+
 Wrench root_force(const Plant& plant, const Vec3& gravity, frond_effects effects, const Vec3& about) {
-    const VecX& x = plant.state.motion.x;
-    const VecX& mass = node_mass_of(*plant.system);
-    const Vec3 centre = plant.to_model(about), weight = plant.rotation.conjugate() * gravity;
-    const HeldMotion motion = motion_of_held(plant);
-    const VecX pull = forces_on_nodes(plant, plant.input.effects & effects, motion.v);
+    const Motion& motion = plant.state.motion;
+    const Vec3 centre = plant.to_model(about);
+    const HoldingForces forces(plant, gravity, effects);
     Wrench held;
     const auto hold = [&](const Vec3& force, const Vec3& place) {
         held.force += force;
         held.moment += (place - centre).cross(force);
     };
-    const int pinned_count = int(plant.state.motion.pinned.size());
-    for (int i = next_pinned(plant.state.motion, 0); i < pinned_count; i = next_pinned(plant.state.motion, i + 1)) {
-        Vec3 force = -point(pull, i) - mass[i] * weight;
-        if (motion.acceleration.size() > 0) force += mass[i] * point(motion.acceleration, i);
-        if (plant.system->row->moves_chain && i % 2 == 1)
-            held.moment -= inverse_rate_matrix<double>(Vec3(point(x, i))).transpose() * point(pull, i);
+    const int pinned_count = int(motion.pinned.size());
+    for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1)) {
+        if (forces.is_turn(i))
+            held.moment += forces.on_turn(i);
         else
-            hold(force, point(x, i));
+            hold(forces.on_place(i), point(motion.x, i));
     }
+    for (const Guide& guide : guides_of(plant)) held.moment += forces.on_guided(guide);
     for (const Spring& spring : plant.input.pin_springs) {
-        const Vec3 place = attachment_place(spring.attachment, x);
+        const Vec3 place = attachment_place(spring.attachment, motion.x);
         hold(spring.stiffness * (spring.target - place), place);
     }
     return {plant.rotation * held.force, plant.rotation * held.moment};
+}
+
+Wrench support_force(const Plant& plant, const Vec3& gravity, frond_effects effects, int chain_node) {
+    const Motion& motion = plant.state.motion;
+    const HoldingForces forces(plant, gravity, effects);
+    const int place = 2 * chain_node, turn = place + 1;
+    Wrench held;
+    if (motion.pinned[size_t(place)]) held.force = plant.rotation * forces.on_place(place);
+    if (motion.pinned[size_t(turn)]) held.moment = plant.rotation * forces.on_turn(turn);
+    for (const Guide& guide : guides_of(plant))
+        if (guide.node == turn) held.moment = plant.rotation * forces.on_guided(guide);
+    return held;
 }
 
 }  // namespace frond

@@ -45,6 +45,7 @@ static void go_on_anew(Plant& plant) {
     plant.state.blend_out = {};
     plant.view.lead = plant.state.stepped_by = 0;
     plant.state.fibre_force.resize(0);
+    if (plant.follow) carry_supports(plant);
     plant.input.pins_changed = true;
     apply_pins(plant);
     moved(plant);

@@ -23,6 +23,7 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
     Loads& loads = plant.step.loads;
     loads.gravity = gravity_in(plant, surroundings, effects);
     loads.springs = plant.input.pin_springs;
+    loads.guides = &guides_of(plant);
     loads.force.resize(0);
     if (!(effects & FROND_EFFECT_USER_FORCE)) return;
 
@@ -148,6 +149,8 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects) {
     if (!(effects & FROND_EFFECT_DAMPING))
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
+    constexpr int ENOUGH = 10;  // Newton iterations, of which most steps take two to four
+    if (hold_several_places(plant)) settings.newton_iterations = std::max(settings.newton_iterations, ENOUGH);
     // Contacts add their response to the linear solution first.
     settings.is_touched = plant.state.is_touched;
     return settings;

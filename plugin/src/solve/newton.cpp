@@ -37,6 +37,7 @@ bool is_spent(const Newton& n) {
 // Keeps the strain that the solve linearized at `from` gave to what rotates, by velocities that lead there; or leaves
 // that to retract_step().
 void retract(const Newton& n, const VecX& from, VecX& v) {
+    follow_guides(n, v);
     if (!n.body.retract) return;
     if (n.input.settings.is_touched) {
         if (n.iterations == 1) n.w.retract_from = from;
@@ -92,6 +93,7 @@ bool search_line(Newton& n, double most, VecX& rhs, double& norm) {
     double part = 1;
     for (int trial = 0; trial <= HALVINGS; ++trial, part *= 0.5) {
         w.v_trial = w.v + part * direction;
+        follow_guides(n, w.v_trial);
         const double potential = potential_at(n, w.v_trial);
         if (!(potential <= bound)) continue;
         const double norm_trial = residual_at(n, w.v_trial, w.rhs_trial);
@@ -114,6 +116,7 @@ void stand_still_if_better(Newton& n) {
     w.v_trial = w.v;
     for (int i = 0; i < n.system.elements->node_count; ++i)
         if (!w.held[size_t(i)]) point(w.v_trial, i).setZero();
+    follow_guides(n, w.v_trial);
     if (!(moving <= potential_at(n, w.v_trial))) std::swap(w.v, w.v_trial);
 }
 
@@ -224,6 +227,7 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     n.at_once = n.body.add_ahead && n.iterations == 1 && !n.exact && !settings.careful;
     if (settings.careful && settings.most_work > 0) n.most_work = report.work + settings.most_work;
     workspace.v = workspace.v_start;
+    follow_guides(n, workspace.v);
     workspace.reach = stage.step;
     workspace.retract_from.resize(0);
     const bool converged_before = report.converged;

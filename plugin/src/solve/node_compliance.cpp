@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/assert.hpp"
+#include "solve/guides.hpp"
 #include "solve/integrator.hpp"
 
 namespace frond {
@@ -13,7 +14,10 @@ bool make_compliance(Workspace& workspace, const SolveSettings& settings, const 
     std::vector<NodeBlock> free;
     for (const NodeBlock& push : pushes) {
         FROND_ASSERT(push.node >= 0 && size_t(push.node) < workspace.held.size());
-        if (!workspace.held[size_t(push.node)]) free.push_back(push);
+        if (workspace.held[size_t(push.node)]) continue;
+        free.push_back(push);
+        const int guide = guide_of(workspace, push.node);
+        if (guide >= 0) free.back().block -= Mat3(workspace.held_parts[size_t(guide)] * push.block);
     }
     if (!responds_by_mass(workspace, settings)) {
         if (!make_factor(workspace.A, workspace.linear)) return false;

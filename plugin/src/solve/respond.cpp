@@ -2,6 +2,7 @@
 #include "solve/integrator.hpp"
 
 #include "core/assert.hpp"
+#include "solve/guides.hpp"
 
 namespace frond {
 
@@ -16,6 +17,7 @@ bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& im
     FROND_ASSERT(impulse.size() == 3 * Eigen::Index(w.held.size()));
     for (size_t i = 0; i < w.held.size(); ++i)
         if (w.held[i]) point(w.rhs, int(i)).setZero();
+    keep_free_parts(w, w.rhs);
     if (responds_by_mass(w, settings)) {
         divide_by_mass(w, w.rhs, dv);
         return dv.allFinite();
@@ -43,6 +45,7 @@ void add_correction(const Workspace& workspace, const VecX& dv, Motion& motion) 
 void retract_step(Workspace& workspace, Motion& motion) {
     Workspace& w = workspace;
     if (w.retract_from.size() == 0) return;
+    for (const Guide& guide : w.guides) point(motion.x, guide.node) = guided(guide, point(motion.x, guide.node));
     const VecX end = wound_as(w.retract_from, motion.x);
     w.system->row->retract(*w.elements, w.retract_from, end, w.held, w.retracted);
     // Of pairs of nodes only the positions change; velocities keep what the responses gave them, for contacts bound

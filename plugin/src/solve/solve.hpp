@@ -76,6 +76,14 @@ struct Motion {
 // Returns the first pinned node from the i-th on; the size of `pinned` if there is none.
 int next_pinned(const Motion& motion, int i);
 
+// A node that rotates about one axis only, as on a hinge, or about all but one, as in a fork.
+struct Guide {
+    int node;       // of the rotation vector
+    bool is_hinge;  // it turns about the axis only; else it does not turn about the axis
+    Vec3 axis;      // of length one, in the frame of the nodes
+    Vec3 made_at;   // rotation vector from which turns count
+};
+
 // Loads during a step, gathered by the effects.
 struct Loads {
     VecX force;                   // node_count*3, empty: none [N]
@@ -83,6 +91,7 @@ struct Loads {
     std::vector<Spring> springs;
     bool springs_are_far = false;  // some pull from farther than their derivative holds for: see lead_pin_springs()
     std::vector<Drag> drags;
+    const std::vector<Guide>* guides = nullptr;  // borrowed; null: no node is held in part
 };
 
 struct SolveReport {

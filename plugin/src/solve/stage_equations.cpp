@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solve/drags.hpp"
+#include "solve/guides.hpp"
 #include "solve/springs.hpp"
 
 namespace frond {
@@ -28,8 +29,19 @@ static void start_residual(const StageEquations& e, const VecX& v, VecX& rhs) {
 double free_norm(const StageEquations& e, const VecX& rhs) {
     double sum = 0;
     for (int i = 0; i < e.system.elements->node_count; ++i)
-        if (!e.w.held[size_t(i)]) sum += point(rhs, i).squaredNorm();
+        if (!e.w.held[size_t(i)] && guide_of(e.w, i) < 0) sum += point(rhs, i).squaredNorm();
+    for (size_t g = 0; g < e.w.guides.size(); ++g) {
+        const Vec3 of_node = point(rhs, e.w.guides[g].node);
+        sum += (of_node - e.w.held_parts[g] * of_node).squaredNorm();
+    }
     return std::sqrt(sum);
+}
+
+void follow_guides(const StageEquations& e, VecX& v) {
+    for (const Guide& guide : e.w.guides) {
+        const Vec3 end = point(e.stage.x_base, guide.node) + e.stage.step * point(v, guide.node);
+        point(v, guide.node) += 1 / e.stage.step * (guided(guide, end) - end);
+    }
 }
 
 const VecX& linearized_from(const StageEquations& e) {
@@ -83,6 +95,7 @@ double residual_at(StageEquations& e, const VecX& v, VecX& rhs) {
         w.damping.multiply(v, w.product);
         rhs -= e.stage.step * e.rayleigh * w.product;
     }
+    look_at_guides(w, w.x);
     return free_norm(e, rhs);
 }
 
@@ -149,6 +162,9 @@ void hold(StageEquations& e) {
         }
     for (int i = 0; i < pattern.node_count; ++i)
         if (w.held[size_t(i)]) point(w.rhs, i).setZero();
+    look_at_guides(w, w.x);
+    hold_parts(w);
+    keep_free_parts(w, w.rhs);
 }
 
 }  // namespace frond

@@ -34,12 +34,15 @@ void linearize_at_start(StageEquations& equations);
 double residual_at(StageEquations& equations, const VecX& v, VecX& rhs);
 // Returns the stage's potential: minus its gradient by v is the residual.
 double potential_at(const StageEquations& equations, const VecX& v);
-// Returns the norm over nodes that are not held.
+// Changes v so that guided nodes end where their guides allow.
+void follow_guides(const StageEquations& equations, VecX& v);
+// Returns the norm over nodes that are not held, and free parts of guided ones.
 double free_norm(const StageEquations& equations, const VecX& rhs);
 // Forms A = (1 + step a) M + step^2 K + step b K_damping + springs + drags of the stiffness in w.A. `first`: K is the
 // one at the start of the step, of which the damping is a multiple unless elements differ in damping ratio.
 void form_matrix(StageEquations& equations, bool first, Tangent tangent);
-// Makes rows and columns of held nodes, whose velocities are known, the identity, so that the pattern stays.
+// Makes rows and columns of held nodes, whose velocities are known, the identity, so that the pattern stays; likewise
+// of held parts of guided ones.
 void hold(StageEquations& equations);
 
 }  // namespace frond

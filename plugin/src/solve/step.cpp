@@ -4,6 +4,7 @@
 
 #include "core/assert.hpp"
 #include "solve/drags.hpp"
+#include "solve/guides.hpp"
 #include "solve/integrator.hpp"
 #include "solve/springs.hpp"
 
@@ -21,6 +22,7 @@ bool input_is_sound(const System& system, const StepInput& input) {
     if (motion.x.size() != n || motion.v.size() != n || (force.size() != 0 && force.size() != n)) return false;
     if (!motion.pinned.empty() && (motion.pinned.size() * 3 != size_t(n) || motion.pin_target.size() != n))
         return false;
+    if (input.loads.guides && !guides_are_sound(system, *input.loads.guides)) return false;
     return are_finite(force) && input.loads.gravity.allFinite() && springs_are_sound(system, input.loads.springs) &&
            drags_are_sound(system, input.loads.drags);
 }
@@ -41,6 +43,10 @@ void prepare(Workspace& workspace, const StepInput& input) {
     for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1))
         workspace.held[size_t(i)] = 1;
     carry_held(workspace, input);
+    workspace.guides.clear();
+    if (input.loads.guides) workspace.guides = *input.loads.guides;
+    look_at_guides(workspace, motion.x);
+    keep_free_parts(workspace, workspace.v_start);
     // The rows of either mass matrix add up to the lumped mass.
     for (int i = 0; i < system.elements->node_count; ++i)
         point(workspace.external, i) += system.masses.node[i] * input.loads.gravity;
@@ -53,13 +59,18 @@ void prepare_damping(Workspace& workspace, const SolveSettings& settings) {
     if (!workspace.element_damping.empty()) workspace.damping.set_pattern(system.elements->pattern);
 }
 
-// Puts pinned nodes at their targets, to the last bit, with the velocity that took them there.
+// Puts pinned nodes at their targets, to the last bit, with the velocity that took them there, and guided ones onto
+// their ways.
 void finish_pins(Workspace& workspace, const Motion& motion) {
     const int count = int(motion.pinned.size());
     for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1)) {
         point(workspace.x, i) = point(motion.pin_target, i);
         point(workspace.v, i) = point(workspace.v_start, i);
     }
+    for (const Guide& guide : workspace.guides)
+        point(workspace.x, guide.node) = guided(guide, point(workspace.x, guide.node));
+    look_at_guides(workspace, workspace.x);
+    keep_free_parts(workspace, workspace.v);
 }
 
 // Keeps this step as the history of the next one.

@@ -5,6 +5,7 @@
 
 #include "core/timer.hpp"
 #include "solve/drags.hpp"
+#include "solve/guides.hpp"
 #include "solve/integrator.hpp"
 
 namespace frond {
@@ -25,6 +26,7 @@ bool solve_mass(Workspace& w, const StepInput& input, SolveReport& report) {
             block.diagonal().array() += !held ? w.system->masses.slot[size_t(k)] : i == j ? 1.0 : 0.0;
         }
     add_inertia(w, 1);
+    hold_parts(w);
     const SolveSettings& s = input.settings;
     const LinearResult result =
         solve_linear(s.linear_solver, w.A, w.force, {s.max_iterations, s.tolerance}, w.linear, w.dv);
@@ -36,13 +38,24 @@ bool solve_mass(Workspace& w, const StepInput& input, SolveReport& report) {
 
 }  // namespace
 
+// Returns the rotary inertia in the free part of a guided node.
+static Mat3 free_inertia(const Mat3& inertia, const Mat3& held) {
+    const Mat3 free = Mat3::Identity() - held;
+    return free * inertia * free + inertia.trace() * held;
+}
+
 void divide_by_mass(const Workspace& w, const VecX& b, VecX& x) {
     x = b;
+    keep_free_parts(w, x);
     const auto turns = [&](size_t i) { return !w.inertia.empty() && i % 2 == 1; };
     for (size_t i = 0; i < w.held.size(); ++i) {
         if (w.held[i]) continue;
         const double mass = w.system->masses.node[Eigen::Index(i)];
-        if (turns(i))
+        const int guide = guide_of(w, int(i));
+        if (guide >= 0)
+            point(x, int(i)) =
+                free_inertia(w.inertia[i / 2], w.held_parts[size_t(guide)]).ldlt().solve(Vec3(point(x, int(i))));
+        else if (turns(i))
             point(x, int(i)) = w.inertia[i / 2].ldlt().solve(point(b, int(i)));
         else if (!w.drag.empty())
             point(x, int(i)) = Mat3(w.drag[i] + mass * Mat3::Identity()).llt().solve(point(b, int(i)));
@@ -58,6 +71,7 @@ bool step_symplectic_euler(Workspace& workspace, const StepInput& input, SolveRe
     if (!input.loads.drags.empty()) lump_drags(input.loads.drags, w.held.size(), input.h, w.drag);
     for (size_t i = 0; i < w.held.size(); ++i)
         if (w.held[i]) point(w.force, int(i)).setZero();
+    keep_free_parts(w, w.force);
 
     Timer timer;
     if (w.system->masses.lumped) {

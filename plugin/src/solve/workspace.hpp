@@ -18,23 +18,25 @@ struct Workspace {
     BlockMatrix damping;
     LinearScratch linear;
 
-    std::vector<Mat3> inertia;    // rotary, at the start of the step, of nodes that rotate [kg m^2]
-    std::vector<Mat3> drag;       // length of an explicit step times lumped damping, one a node; empty: none [kg]
-    std::vector<uint8_t> held;    // one a node: its velocity is given, not solved for
-    VecX external;                // forces that do not depend on the motion [N]
-    VecX elastic;                 // force of the mechanics [N]
-    VecX momentum, product;       // M v and K v
-    VecX rhs, dv;                 // right-hand side and solution of the linear system
-    VecX x, v;                    // at the end of the stage: positions and velocities [m], [m/s]
-    VecX v_start;                 // velocities at the start of the step; held nodes have that to their targets
-    VecX x_prev, v_prev;          // start of the step before, held nodes likewise
-    VecX x_rate, v_rate;          // rates at the end of the step, for the next one
-    VecX x_base, v_base, x_from;  // base and prediction of the stage
-    VecX force, impulse;          // forces at the start of the step [N], impulse of the stage [N s]
-    double reach = 0;             // derivative of positions by velocities at the end [s]
-    VecX rhs_stage;               // residual at v
-    VecX retracted;               // end of the stage after Mechanics::retract [m]
-    VecX retract_from;            // where the only solve was linearized, if retract_step() is to come; else empty [m]
+    std::vector<Mat3> inertia;     // rotary, at the start of the step, of nodes that rotate [kg m^2]
+    std::vector<Mat3> drag;        // length of an explicit step times lumped damping, one a node; empty: none [kg]
+    std::vector<uint8_t> held;     // one a node: its velocity is given, not solved for
+    std::vector<Guide> guides;     // of nodes that are held in part
+    std::vector<Mat3> held_parts;  // projection on what is held of each, see look_at_guides()
+    VecX external;                 // forces that do not depend on the motion [N]
+    VecX elastic;                  // force of the mechanics [N]
+    VecX momentum, product;        // M v and K v
+    VecX rhs, dv;                  // right-hand side and solution of the linear system
+    VecX x, v;                     // at the end of the stage: positions and velocities [m], [m/s]
+    VecX v_start;                  // velocities at the start of the step; held nodes have that to their targets
+    VecX x_prev, v_prev;           // start of the step before, held nodes likewise
+    VecX x_rate, v_rate;           // rates at the end of the step, for the next one
+    VecX x_base, v_base, x_from;   // base and prediction of the stage
+    VecX force, impulse;           // forces at the start of the step [N], impulse of the stage [N s]
+    double reach = 0;              // derivative of positions by velocities at the end [s]
+    VecX rhs_stage;                // residual at v
+    VecX retracted;                // end of the stage after Mechanics::retract [m]
+    VecX retract_from;             // where the only solve was linearized, if retract_step() is to come; else empty [m]
     VecX direction, v_trial, rhs_trial;  // scratch of the line search
 };
 

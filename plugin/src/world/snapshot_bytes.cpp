@@ -53,6 +53,11 @@ static void visit(Archive& a, SavedModal& modal) {
     visit_blend_out(a, modal.blend_out);
 }
 
+static void visit(Archive& a, Support& support) {
+    a(support.chain_node), a(support.holds_place), a.one_of(support.held_turns, FROND_HELD_TURNS_COUNT);
+    a(support.axis), a(support.place), a(support.turn);
+}
+
 static void visit_motion(Archive& a, Motion& motion) {
     History& history = motion.history;
     a(motion.x), a(motion.v), a(motion.pinned), a(motion.pin_target);
@@ -73,7 +78,7 @@ static void visit(Archive& a, SavedPlant& plant) {
     visit_blend_out(a, plant.blend_out);
     a(plant.lead), a(plant.modal), a(plant.has_own_elements), a(plant.plastic), a(plant.fibre_give);
     a(plant.fibre_force);
-    a(plant.pinned), a(plant.pin_target), a(plant.anchor);
+    a(plant.pinned), a(plant.pin_target), a(plant.anchor), a(plant.supports);
     a(plant.pins_changed), a(plant.pins_are_own), a(plant.has_user_force), a(plant.is_touched), a(plant.is_entangled);
     a(plant.user_force), a(plant.chain_load), a(plant.substeps), a(plant.recovers_for), a(plant.grab_targets),
         a(plant.fragments);
@@ -107,7 +112,7 @@ static void visit_all(Archive& a, Snapshot& s) {
 namespace {
 
 constexpr char MAGIC[8] = {'F', 'R', 'O', 'N', 'D', 'S', 'N', 'P'};
-constexpr uint32_t LAYOUT = 5;  // to be raised with every change above
+constexpr uint32_t LAYOUT = 6;  // to be raised with every change above
 
 struct Head {
     char magic[8];

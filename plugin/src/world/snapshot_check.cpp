@@ -174,10 +174,18 @@ void check_plastic(const SavedPlant& saved, const Becomes& becomes) {
 }
 
 void check_pins(const SavedPlant& saved, const Plant& plant) {
+    constexpr double SLACK = 1e-9;  // [-]
     const size_t nodes = size_t(node_count_of(plant));
     check_size(saved.pin_target, 3 * Eigen::Index(nodes), "pins");
     if (saved.pinned.size() != nodes || !are_flags(saved.pinned) || saved.anchor.size() != nodes) damaged("pins");
     for (int anchor : saved.anchor) check_index(anchor, plant.model->chain.nodes.size(), "pins");
+    for (const Support& support : saved.supports) {
+        check_index(support.chain_node, plant.model->chain.nodes.size(), "supports");
+        for (const Vec3& v : {support.axis, support.place, support.turn})
+            check_numbers(v, "supports", LARGEST_COORDINATE);
+        if (!(std::abs(support.axis.squaredNorm() - 1) < SLACK)) damaged("supports");
+    }
+    if (!saved.supports.empty() && !mechanics(saved.which, plant.nodes->order).moves_chain) damaged("supports");
     check_size(saved.user_force, 3 * Eigen::Index(nodes), "forces", true);
     check_size(saved.chain_load, 6 * Eigen::Index(plant.model->chain.nodes.size()), "forces", true);
 }

@@ -68,12 +68,13 @@ void put_modal(const SavedModal& saved, Plant& plant) {
 void put_plant(SavedPlant& saved, PlantBody& body) {
     Plant& plant = *body.plant;
     end_modal(plant);
+    give_supports(plant, {});
     set_mechanics(plant, saved.which);
     if (!saved.modal.empty()) put_modal(saved.modal.front(), plant);
     plant.input.pinned = std::move(saved.pinned);
     plant.input.pin_target = std::move(saved.pin_target);
     plant.input.anchor = std::move(saved.anchor);
-    plant.input.pins_changed = true;
+    give_supports(plant, std::move(saved.supports));
     apply_pins(plant);  // makes the pins' springs; the rest is in the motion
     plant.state.motion = std::move(saved.motion);
     plant.state.trend = std::move(saved.trend);

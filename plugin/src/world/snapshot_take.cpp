@@ -73,6 +73,7 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     saved.pinned = plant.input.pinned;
     saved.pin_target = plant.input.pin_target;
     saved.anchor = plant.input.anchor;
+    saved.supports = supports_of(plant);
     saved.pins_changed = plant.input.pins_changed;
     saved.pins_are_own = plant.input.pins_are_own;
     saved.has_user_force = plant.input.has_user_force;

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ._generated import (Capsule, ChainState, Contact, Detail, Effect, Energy, Fragment, Integrator, Mechanics, PlantDef,
-                         SectionForce, Vector)
+from ._generated import (Capsule, ChainState, Contact, Detail, Effect, Energy, Fragment, HeldTurns, Integrator, Mechanics,
+                         PlantDef, SectionForce, Vector)
 from ._lib import (Array, address_of, array_out, changes_world, check, check_host, documented, ffi, fill, flag, host,
                    integer, lib, mask_of, need, numbers, real, refuse, row_of, to_python, vector, wrap_handle)
 from .hold import Bond, Grab
@@ -143,6 +143,24 @@ class Plant(OfWorld):
         """Adds a force [N] and a moment [N m] on a chain node, for as long as add_force does."""
         check(lib.frond_plant_add_chain_load(self._handle, integer(chain_node, "chain_node"), vector(force, "force"),
                                              vector(moment, "moment")))
+
+    def set_support(self, chain_node: int, held_turns: HeldTurns | str = "none", axis: Vector = (0, 0, 1),
+                    holds_place: bool = True) -> None:
+        """Holds a chain node of rods as it is now: by default as a ball joint does, "across_axis" as a hinge,
+        "about_axis" as a fork, "all" as a clamp. Pins and the ground do not hold it meanwhile."""
+        support = ffi.new("frond_support *")
+        fill(support[0], {"holds_place": holds_place, "held_turns": held_turns, "axis": axis}, "a support")
+        check(lib.frond_plant_set_support(self._handle, integer(chain_node, "chain_node"), support))
+
+    def remove_support(self, chain_node: int) -> None:
+        """Leaves a chain node to pins and the ground again, where it is now."""
+        check(lib.frond_plant_set_support(self._handle, integer(chain_node, "chain_node"), ffi.NULL))
+
+    def support_force(self, chain_node: int) -> Wrench:
+        """Returns the force of a support on its chain node [N], and the moment about the node [N m]."""
+        force, moment = ffi.new("frond_vec3 *"), ffi.new("frond_vec3 *")
+        check(lib.frond_plant_get_support_force(self._handle, integer(chain_node, "chain_node"), force, moment))
+        return Wrench(to_python(force[0]), to_python(moment[0]))
 
     def add_distributed_load(self, capsule: int, force_per_length: Vector) -> None:
         """Adds a force per length [N/m] on a capsule, for as long as add_force does."""
