@@ -1,6 +1,7 @@
 // Laws: what has to hold after every step of every program, whatever it does.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -56,8 +57,8 @@ class Laws {
 public:
     Laws(frond_world world, LawSet checked);
     void after_step(std::map<int, Standing>& plants, const Loads& loads, double dt);
-    // Checks a change of mechanics, which must not add energy.
-    void change_mechanics(Standing& plant, frond_mechanics to);
+    // Checks a change of mechanics, which must not add energy; `step` steps the world [s].
+    void change_mechanics(Standing& plant, frond_mechanics to, const std::function<void(double)>& step);
     // Takes all loads away and checks that plants come home.
     static bool may_come_home(const Standing& plant);
     static void expect_home(const Standing& plant);
@@ -67,7 +68,7 @@ private:
     void check_places(const Standing& plant, const Loads& loads);
     void check_lengths(const Standing& plant, const Loads& loads, bool is_touched);
     void check_energy(const std::map<int, Standing>& plants, double dt);
-    void check_handover(const Standing& plant, double gained, double allowed);
+    void check_handover(const Standing& plant, double gained, double allowed, const std::function<void(double)>& step);
     void check_work(const std::map<int, Standing>& plants);
 
     bool checks(Law law) const { return checked & bit_of(law); }

@@ -144,8 +144,9 @@ void Run::remove_plant(int id) {
 
 void Run::change_mechanics(int id, frond_mechanics to) {
     Standing& plant = plants.at(id);
+    const auto step = [this](double dt) { host ? host->step(dt) : must(frond_world_step(world, dt)); };
     if (laws)
-        laws->change_mechanics(plant, to);
+        laws->change_mechanics(plant, to, step);
     else
         check(frond_plant_set_mechanics(plant.handle, to));
 }

@@ -106,6 +106,38 @@ void write_push(Source& s, const Operation& o) {
     s.line("tell();");
 }
 
+int chain_node(frond_plant plant, int number) {
+    return number % std::max(1, frond_plant_get_chain_node_count(plant));
+}
+void support(Run& run, const Operation& o) {
+    Standing& plant = plant_of(run, o);
+    const frond_support support = {whole(o, "place") != 0, frond_held_turns(whole(o, "turns")), xyz(o)};
+    run.check(frond_plant_set_support(plant.handle, chain_node(plant.handle, whole(o, "node")), &support));
+    plant.is_changed = plant.is_strained = true;
+}
+void write_support(Source& s, const Operation& o) {
+    s.line("{");
+    s.line("    frond_support support = {%s, (frond_held_turns)%d, {0, 0, 0}};", whole(o, "place") ? "true" : "false",
+           whole(o, "turns"));
+    s.line("    support.axis = vec(%s);", vec_text(xyz(o)).c_str());
+    s.line("    const int count = frond_plant_get_chain_node_count(%s);", plant_name(o).c_str());
+    s.line("    frond_plant_set_support(%s, count > 0 ? %d %% count : 0, &support);", plant_name(o).c_str(),
+           whole(o, "node"));
+    s.line("}");
+}
+
+void unsupport(Run& run, const Operation& o) {
+    Standing& plant = plant_of(run, o);
+    run.check(frond_plant_set_support(plant.handle, chain_node(plant.handle, whole(o, "node")), nullptr));
+}
+void write_unsupport(Source& s, const Operation& o) {
+    s.line("{");
+    s.line("    const int count = frond_plant_get_chain_node_count(%s);", plant_name(o).c_str());
+    s.line("    frond_plant_set_support(%s, count > 0 ? %d %% count : 0, NULL);", plant_name(o).c_str(),
+           whole(o, "node"));
+    s.line("}");
+}
+
 void grab(Run& run, const Operation& o) {
     Standing& plant = plant_of(run, o);
     frond_grab made = {};
@@ -187,6 +219,19 @@ std::vector<Verb> hold_verbs() {
          {any_node, {"x", 1, -10, 10, 0.9}, {"y", 0, -5, 5, 0.4}, {"z", 0, -10, 10, 0.6}, count, rate},
          push,
          write_push},
+        {"support",
+         NONE,
+         {PLANT, NONE},
+         2,
+         {{"node", 0, 0, 60, 0.5, WHOLE},
+          {"place", 1, 0, 1, 0.3, WHOLE},
+          {"turns", 0, 0, FROND_HELD_TURNS_COUNT - 1, 0.8, WHOLE},
+          {"x", 0, -1, 1, 0.4},
+          {"y", 1, -1, 1, 0.4},
+          {"z", 0, -1, 1, 0.4}},
+         support,
+         write_support},
+        {"unsupport", NONE, {PLANT, NONE}, 1, {{"node", 0, 0, 60, 0.5, WHOLE}}, unsupport, write_unsupport},
         {"grab", GRAB, {PLANT, NONE}, 3, {any_vertex, {"stiffness", 60, 1, 1e4, 0.8, LOG}}, grab, write_grab},
         {"move_grab", NONE, {GRAB, NONE}, 4, {x, y, z}, move_grab, write_move_grab},
         {"let_go", NONE, {GRAB, NONE}, 1, {}, let_go, write_let_go},

@@ -53,16 +53,23 @@ void begin_rigid(const Follow& follow, const Model& model, const VecX& cage_x, V
             to[size_t(attachment.node[k]) / 2].push_back(point(cage_x, int(n)));
         }
     }
-    std::vector<Mat3> rotations(count, Mat3::Identity());
+    // A root that too few nodes determine moves with the whole cage.
+    std::vector<Vec3> all_from, all_to;
+    for (size_t i = 0; i < count; i++) {
+        all_from.insert(all_from.end(), from[i].begin(), from[i].end());
+        all_to.insert(all_to.end(), to[i].begin(), to[i].end());
+    }
+    Mat3 whole = Mat3::Identity();
+    Vec3 shift = Vec3::Zero();
+    fit_rigid(all_from, all_to, Vec3::Zero(), whole, shift);
+    std::vector<Mat3> rotations(count, whole);
     for (size_t i = 0; i < count; i++) {
         const ChainNode& node = model.chain.nodes[i];
-        Vec3 image;
-        if (!fit_rigid(from[i], to[i], node.position, rotations[i], image)) {
-            const size_t parent = size_t(std::max(node.parent, 0));
+        Vec3 image = whole * node.position + shift;
+        if (!fit_rigid(from[i], to[i], node.position, rotations[i], image) && node.parent >= 0) {
+            const size_t parent = size_t(node.parent);
             rotations[i] = rotations[parent];
-            image = node.parent < 0 ? node.position
-                                    : Vec3(point(x, int(2 * parent)) +
-                                           rotations[i] * (node.position - model.chain.nodes[parent].position));
+            image = point(x, int(2 * parent)) + rotations[i] * (node.position - model.chain.nodes[parent].position);
         }
         point(x, int(2 * i)) = image;
         point(x, int(2 * i + 1)) = rotation_vector<double>(rotations[i]);

@@ -46,7 +46,7 @@ static void let_go_of_moved(Plant& plant) {
 // as it can as it is held. Returns whether there was a step; its workspace is that of the last one.
 static bool take_steps(Plant& plant, SolveSettings& settings, double bound) {
     constexpr int ROUNDS = 30, ITERATIONS = 10;  // steps, and solves in each
-    constexpr double SLOW = 0.9;                 // share of the energy that a step leaves if the next one is longer [-]
+    constexpr double SLOW = 0.9;                 // share of what is too much that a step leaves before a longer one [-]
     double h = 1.0 / 60;                         // [s]
     Motion& motion = plant.state.motion;
     Loads loads;
@@ -66,7 +66,7 @@ static bool take_steps(Plant& plant, SolveSettings& settings, double bound) {
         if (!(stored_energy(plant).potential < stored)) motion.x = free;
         const double next = stored_energy(plant).potential;
         if (plant.report.ok && next < stored) {
-            if (!(next < SLOW * stored)) h *= 2;
+            if (!(next - bound < SLOW * (stored - bound))) h *= 2;
             stored = next;
             continue;
         }
