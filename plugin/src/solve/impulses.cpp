@@ -23,9 +23,6 @@ struct Own {
     Mat3 inverse = Mat3::Zero();   // the same for a bond
 };
 
-// A contact with less compliance is immovable and needs no impulse.
-constexpr double IMMOVABLE = 1e-7;  // [1/kg]
-
 }  // namespace
 
 Mat3 firm_inverse(const Mat3& block) {

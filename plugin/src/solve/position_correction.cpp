@@ -45,7 +45,6 @@ const Row& row_of(CorrectionSearch& search, int i) {
 
 // Does a round over an island's contacts; returns whether another one is of use.
 bool sweep(CorrectionSearch& search, const std::vector<int>& island, double tolerance, double unfelt) {
-    constexpr double IMMOVABLE = 1e-12;  // [1/kg]
     double most = 0, largest = 0, speed = 0;
     for (const int i : island) {
         double& push = search.pushes[size_t(i)];
