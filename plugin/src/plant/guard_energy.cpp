@@ -65,7 +65,9 @@ static bool leads_springs(const Plant& plant) {
 }
 
 bool may_inflate(const Plant& plant) {
-    return !plant.follow && plant.input.settings.integrator == FROND_INTEGRATOR_IMPLICIT_EULER;
+    const bool is_implicit_euler =
+        plant.state.is_touched || plant.input.settings.integrator == FROND_INTEGRATOR_IMPLICIT_EULER;
+    return !plant.follow && is_implicit_euler;
 }
 
 bool keeps_course(Plant& plant, double h) {
