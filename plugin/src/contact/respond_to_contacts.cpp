@@ -80,6 +80,19 @@ std::vector<btRigidBody*> give_to_bodies(const World& world, Given& given) {
     return pushed;
 }
 
+// Takes the impulses back that bodies gave to plants whose step is rewound: neither moves by them.
+void take_back_from_rewound(const World& world, Given& given) {
+    bool any = false;
+    for (size_t i = 0; i < given.rows.size(); i++) {
+        ContactRow& row = given.rows[i];
+        if (row.plants[1] || row.plants[0]->plant->step.is_sound || given.impulses[i].isZero(0)) continue;
+        given.impulses[i].setZero();
+        row.impulse->setZero();
+        any = true;
+    }
+    if (any) go_on(world, given);
+}
+
 // Brings the inertias of multi-bodies up to date.
 void take_inertias(const ContactIsland& island) {
     std::vector<btMultiBody*> bodies;
@@ -205,16 +218,24 @@ void respond_to_contacts(World& world, double h) {
         given.resize(islands.size());
         run_jobs(world, islands.size(),
                  [&](size_t i) { given[i] = respond_in(world, response, islands[i], h, waiting.touched); });
+        // Rows point into the contacts that were answered, so the search for missed ones adds to copies.
+        std::vector<Contact> contacts = std::move(world.contacts);
+        std::vector<PlantContact> plant_contacts = std::move(world.plant_contacts);
+        world.contacts = contacts;
+        world.plant_contacts = plant_contacts;
         const Missed missed = find_missed_contacts(world, h);
-        if (!missed.any) break;
         if (!missed.is_asked || round == MOST) {
-            held = hold_back_what_passes(world, h);
+            world.contacts = std::move(contacts);
+            world.plant_contacts = std::move(plant_contacts);
+            if (missed.any) held = hold_back_what_passes(world, h);
             break;
         }
         take_back(waiting);
     }
-    for (Given& of : given)
+    for (Given& of : given) {
         if (bound_gain(of.rows, h, of.impulses)) go_on(world, of);
+        take_back_from_rewound(world, of);
+    }
     tell_what_is_behind(world, h);
     part_plants(world, h, waiting.touched);
     for (Given& of : given)
