@@ -72,8 +72,8 @@ bool may_inflate(const Plant& plant) {
 
 bool keeps_course(Plant& plant, double h) {
     plant.step.is_off_course = ends_off_course(plant, h);
-    const bool is_asked = plant.step.is_off_course || plant.step.starts_anew || plant.state.was_retried ||
-                          is_pushed(plant) || may_inflate(plant) || hold_several_places(plant) ||
+    const bool is_asked = plant.step.is_off_course || plant.step.starts_anew || is_pushed(plant) ||
+                          may_inflate(plant) || hold_several_places(plant) ||
                           integrator(plant.step.settings.integrator).has_stages ||
                           is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good) || leads_springs(plant);
     return !(is_asked && has_energy_from_nowhere(plant, h)) && !has_run_away(plant);

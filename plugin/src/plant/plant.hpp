@@ -125,7 +125,6 @@ struct PlantState {
     float recovers_for = 0;
     bool is_touched = false;    // in contact, which is resolved over whole steps
     bool is_entangled = false;  // deep in itself or another plant; crossed leaves come apart only by being stretched
-    bool was_retried = false;   // its last step was solved again, so the next one is asked for its energy
     bool is_compressed = false;
     // Compressed state, while all members above that a step changes are empty: displacements of the mechanics' nodes
     // from the modelled shape [m]; empty: none.

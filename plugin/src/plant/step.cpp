@@ -301,7 +301,6 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     FROND_ASSERT(motion.x.size() == 3 * elements_of(plant).node_count);
     drop_history_at_forces(plant);
     plant.state.stepped_by = h;
-    plant.state.was_retried = plant.trouble & FROND_TROUBLE_RETRIED;
     carry_stumps(plant);
     pass_time(plant.state.blend_out, h);
     moved(plant);

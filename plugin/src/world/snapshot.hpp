@@ -52,7 +52,7 @@ struct SavedPlant {
     VecX pin_target;
     std::vector<int> anchor;
     std::vector<Support> supports;
-    bool pins_changed, pins_are_own, has_user_force, is_touched, is_entangled, was_retried;
+    bool pins_changed, pins_are_own, has_user_force, is_touched, is_entangled;
     VecX user_force, chain_load, fibre_force;
     int substeps;
     float recovers_for;

@@ -92,7 +92,6 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     if (saved.has_user_force) forces_of(plant) = {std::move(saved.user_force), std::move(saved.chain_load)};
     plant.state.is_touched = saved.is_touched;
     plant.state.is_entangled = saved.is_entangled;
-    plant.state.was_retried = saved.was_retried;
     plant.state.substeps = saved.substeps;
     plant.state.recovers_for = saved.recovers_for;
     size_t i = 0;

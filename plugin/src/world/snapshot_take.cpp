@@ -83,7 +83,6 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     }
     saved.is_touched = plant.state.is_touched;
     saved.is_entangled = plant.state.is_entangled;
-    saved.was_retried = plant.state.was_retried;
     saved.substeps = plant.state.substeps;
     saved.recovers_for = plant.state.recovers_for;
     for (const Grab& grab : plant.input.grabs) saved.grab_targets.push_back(grab.target);
