@@ -4,11 +4,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <ctime>
 
+#include "programs/copy.hpp"
 #include "programs/run.hpp"
 #include "programs/shrink.hpp"
 
@@ -136,16 +136,9 @@ Outcome outcome_of(const Program& program, LawSet laws) {
 }
 
 Outcome outcome_apart(const Program& program, int seconds, LawSet laws) {
-    int ends[2];
-    if (pipe(ends) != 0) throw tools::SceneError(std::string("no pipe: ") + std::strerror(errno));
-    const pid_t child = fork();
-    if (child < 0) throw tools::SceneError(std::string("no process: ") + std::strerror(errno));
-    if (child == 0) run_child(program, seconds, laws, ends[1]);
-    close(ends[1]);
-    int status = 0;
-    waitpid(child, &status, 0);
-    const Outcome outcome = read_outcome(ends[0], status, seconds);
-    close(ends[0]);
+    Outcome outcome;
+    run_in_copy([&](int out) { run_child(program, seconds, laws, out); },
+                [&](int in, int status) { outcome = read_outcome(in, status, seconds); });
     return outcome;
 }
 

@@ -1,8 +1,8 @@
 #include "programs/settle.hpp"
 
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "programs/copy.hpp"
 #include "scenes/scene.hpp"
 
 namespace frond::programs {
@@ -23,25 +23,13 @@ static double settle(frond_world world, frond_plant plant, const std::function<v
 }
 
 double settled_energy(frond_world world, frond_plant plant, const std::function<void(double)>& step) {
-    int ends[2];
-    if (pipe(ends) != 0) throw tools::SceneError("no pipe");
-    const pid_t child = fork();
-    if (child == 0) {
-        double energy = 0;
-        bool is_written = false;
-        try {
-            energy = settle(world, plant, step);
-            is_written = write(ends[1], &energy, sizeof energy) == ssize_t(sizeof energy);
-        } catch (const std::exception&) {
-        }
-        _exit(is_written ? 0 : 1);
-    }
-    close(ends[1]);
     double energy = 0;
-    const bool is_read = child > 0 && read(ends[0], &energy, sizeof energy) == ssize_t(sizeof energy);
-    close(ends[0]);
-    int status = 0;
-    if (child > 0) waitpid(child, &status, 0);
+    bool is_read = false;
+    const auto write_it = [&](int out) {
+        const double settled = settle(world, plant, step);
+        _exit(write(out, &settled, sizeof settled) == ssize_t(sizeof settled) ? 0 : 1);
+    };
+    run_in_copy(write_it, [&](int in, int) { is_read = read(in, &energy, sizeof energy) == ssize_t(sizeof energy); });
     if (!is_read) throw tools::SceneError("a plant could not come to rest in a copy of the process");
     return energy;
 }

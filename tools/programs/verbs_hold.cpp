@@ -115,14 +115,18 @@ void support(Run& run, const Operation& o) {
     run.check(frond_plant_set_support(plant.handle, chain_node(plant.handle, whole(o, "node")), &support));
     plant.is_changed = plant.is_strained = true;
 }
+void write_set_support(Source& s, const Operation& o, const char* support) {
+    const std::string plant = plant_name(o);
+    s.line("    const int count = frond_plant_get_chain_node_count(%s);", plant.c_str());
+    s.line("    frond_plant_set_support(%s, count > 0 ? %d %% count : 0, %s);", plant.c_str(), whole(o, "node"),
+           support);
+}
 void write_support(Source& s, const Operation& o) {
     s.line("{");
     s.line("    frond_support support = {%s, (frond_held_turns)%d, {0, 0, 0}};", whole(o, "place") ? "true" : "false",
            whole(o, "turns"));
     s.line("    support.axis = vec(%s);", vec_text(xyz(o)).c_str());
-    s.line("    const int count = frond_plant_get_chain_node_count(%s);", plant_name(o).c_str());
-    s.line("    frond_plant_set_support(%s, count > 0 ? %d %% count : 0, &support);", plant_name(o).c_str(),
-           whole(o, "node"));
+    write_set_support(s, o, "&support");
     s.line("}");
 }
 
@@ -132,9 +136,7 @@ void unsupport(Run& run, const Operation& o) {
 }
 void write_unsupport(Source& s, const Operation& o) {
     s.line("{");
-    s.line("    const int count = frond_plant_get_chain_node_count(%s);", plant_name(o).c_str());
-    s.line("    frond_plant_set_support(%s, count > 0 ? %d %% count : 0, NULL);", plant_name(o).c_str(),
-           whole(o, "node"));
+    write_set_support(s, o, "NULL");
     s.line("}");
 }
 

@@ -23,6 +23,7 @@ namespace {
 
 constexpr int ROUNDS = 3;        // one leaves 10 % at 5 N on a blade, three 3.5 %: pulls turn what they pull
 constexpr double CLOSE = 0.001;  // error in stretch that needs no further round [-]
+constexpr double LIFT = 0.001;   // error allowed in energies, over that which lifts the plant by its size [-]
 
 // A row at the present positions: forces of a unit pull on its nodes, and its excess length [m].
 struct NodePull {
@@ -110,12 +111,16 @@ void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const
     if (velocity_by(plant, stretches, pulls, dv)) plant.state.motion.v += dv;
 }
 
+// Returns the work of loads and weight on the plant's way, but not of pins [J].
+double work_of_loads_and_weight(const Plant& plant, const LoadWork& work) {
+    return work.forces + work.grabs + work.air + work_of_weight(plant, way_of_step(plant));
+}
+
 // Goes only so far by pulls as the cage stores no more than where the solve left it, or where the step began and by the
 // work of loads: between pins or grabs that are too far apart, the linear response of pulls crumples it more in each
 // step.
 void take_back_crumpling(Plant& plant, const VecX& x_free, const VecX& v_free, double h) {
-    constexpr double LEAST = 0.1;   // share of the pulls that is tried [-]
-    constexpr double LIFT = 0.001;  // allowed error, as a share of the energy that lifts the plant by its size [-]
+    constexpr double LEAST = 0.1;  // share of the pulls that is tried [-]
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const auto stored_at = [&](const VecX& x) { return row.energy(elements_of(plant), x); };
     Motion& motion = plant.state.motion;
@@ -126,9 +131,7 @@ void take_back_crumpling(Plant& plant, const VecX& x_free, const VecX& v_free, d
     const double before = stored_at(plant.step.x_good), error = LIFT * lifting_energy(plant);
     const auto may_be_stored = [&] {
         if (stored <= std::max(free, before) + error) return true;
-        const LoadWork work = work_of_loads(plant, h);
-        const double given = work.forces + work.grabs + work.air + work_of_weight(plant, way_of_step(plant));
-        return stored <= before + given + error;
+        return stored <= before + work_of_loads_and_weight(plant, work_of_loads(plant, h)) + error;
     };
     double share = 1;
     while (share > 0 && !may_be_stored()) {
@@ -143,13 +146,11 @@ void take_back_crumpling(Plant& plant, const VecX& x_free, const VecX& v_free, d
 // Slows the plant down to what it had and was given on the way that is left: before the pulls, a force of the host drew
 // its node much farther, and that work is still in the velocities.
 void take_back_speed(Plant& plant, double h) {
-    constexpr double LIFT = 0.001;  // allowed error, as a share of the energy that lifts the plant by its size [-]
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const auto kinetic_at = [&](const VecX& x, const VecX& v) { return kinetic_energy(*plant.system, x, v); };
     Motion& motion = plant.state.motion;
     const LoadWork work = work_of_loads(plant, h);
-    const double given = work.forces + work.grabs + work.air + work.pins + work.error +
-                         work_of_weight(plant, way_of_step(plant)) + LIFT * lifting_energy(plant),
+    const double given = work_of_loads_and_weight(plant, work) + work.pins + work.error + LIFT * lifting_energy(plant),
                  before = row.energy(elements_of(plant), plant.step.x_good) +
                           kinetic_at(plant.step.x_good, plant.step.v_good),
                  most = std::max(0.0, before + given - row.energy(elements_of(plant), motion.x)),

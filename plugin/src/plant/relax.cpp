@@ -63,7 +63,10 @@ static bool take_steps(Plant& plant, SolveSettings& settings, double bound) {
         const VecX free = motion.x;
         hold_lengths(plant, h, false);
         // Between pins that are too far apart fibres would crumple the cage.
-        if (!(stored_energy(plant).potential < stored)) motion.x = free;
+        if (!(stored_energy(plant).potential < stored)) {
+            motion.x = free;
+            plant.state.fibre_force.resize(0);
+        }
         const double next = stored_energy(plant).potential;
         if (plant.report.ok && next < stored) {
             if (!(next - bound < SLOW * (stored - bound))) h *= 2;
@@ -71,6 +74,7 @@ static bool take_steps(Plant& plant, SolveSettings& settings, double bound) {
             continue;
         }
         motion.x = before;
+        plant.state.fibre_force.resize(0);
         if (settings.careful) break;
         // One solve overshoots: a search does not.
         settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
