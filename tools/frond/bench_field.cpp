@@ -175,7 +175,7 @@ PathFigures measure_path(int count, const BenchOptions& options) {
 // step [ms].
 void bench_wind(const BenchOptions& options) {
     constexpr int WARM_UP = 30, STEPS = 60, COUNT = 1000;
-    const char* const PIECES = "capsule_height=0.23";  // [m]
+    const char* const PIECES = "capsule_height=0.24";  // [m]
     const char* const columns[] = {"world", "Frond", "air", "assembly", "solve", "capsules", "collide", "respond"};
     std::printf(
         "\n%d rod plants, all in a wind of 6 m/s at 10 m height, median [ms]; air, assembly, solve and capsules are "

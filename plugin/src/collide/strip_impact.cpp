@@ -15,10 +15,15 @@ std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCo
                                         const StripCore& b_after, double near, const StripGap& now) {
     constexpr double TOLERANCE = 0.01;  // over `near` [-]
     constexpr int MOST_STEPS = 100;
+    constexpr double NEVER = 2;
     std::optional<StripImpact> impact;
-    if (stay_apart_along(now.normal, a_before, a_after, b_before, b_after, (1 + TOLERANCE) * near)) return impact;
+    const double beyond = (1 + TOLERANCE) * near;
+    if (stay_apart_along(now.normal, a_before.at, a_after.at, b_before.at, b_after.at, beyond)) return impact;
     for (int i = 0; i < part_count(a_before); ++i)
         for (int k = 0; k < part_count(b_before); ++k) {
+            const Points<3> from_a = part_of(a_before, i), from_b = part_of(b_before, k);
+            const Points<3> to_a = part_of(a_after, i), to_b = part_of(b_after, k);
+            if (stay_apart_along(now.normal, from_a, to_a, from_b, to_b, beyond)) continue;
             const auto gap_at = [&](double time) {
                 StripGap gap = gap_of_parts(at_time(a_before, a_after, time), i, at_time(b_before, b_after, time), k);
                 gap.distance -= near;
@@ -31,9 +36,9 @@ std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCo
                 impact->gap.distance += near;
             };
             const auto until = [&](double time, const StripGap& gap) {
-                const Points<3> of_a = part_of(a_after, i), of_b = part_of(b_after, k);
-                return apart_until(time, gap.normal, near, at_time(part_of(a_before, i), of_a, time), of_a,
-                                   at_time(part_of(b_before, k), of_b, time), of_b);
+                const double apart = apart_until(time, gap.normal, near, at_time(from_a, to_a, time), to_a,
+                                                 at_time(from_b, to_b, time), to_b);
+                return impact && apart > impact->time ? NEVER : apart;  // others meet before
             };
             advance(TOLERANCE * near, MOST_STEPS, gap_at, until, keep_first);
         }

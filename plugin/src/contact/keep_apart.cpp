@@ -75,7 +75,9 @@ std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPa
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
-        if (stay_apart(core_a, a_after, core_b, b_after, NEAREST * thick)) continue;
+        if (stay_apart(core_a, a_after, core_b, b_after, NEAREST * thick) ||
+            pass_by(core_a, a_after, core_b, b_after, NEAREST * thick))
+            continue;
         const StripGap before = gap_between(core_a, core_b);
         if (before.distance < crossed * thick) continue;
         const double near = share * std::min(NEAREST * thick, OF_BEFORE * before.distance);
@@ -87,13 +89,20 @@ std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPa
     return misses;
 }
 
-// Calls `take` for each miss of the world's plants.
-void for_each_miss(World& world, double crossed,
+// Calls `take` for each miss of the world's plants; of an island's only for the first ones in the step if they are more
+// than `most`.
+void for_each_miss(World& world, double crossed, size_t most,
                    const std::function<void(const std::vector<StripPath>& paths, const Miss& miss)>& take) {
     for (size_t i = 0; i < world.plant_island_count; i++) {
         const std::vector<StripPath> paths = paths_of(*world.plant_searches[i]);
         if (paths.empty()) continue;
-        for (const Miss& miss : misses_of(*world.plant_searches[i], paths, 1, crossed)) take(paths, miss);
+        std::vector<Miss> misses = misses_of(*world.plant_searches[i], paths, 1, crossed);
+        if (misses.size() > most) {
+            std::stable_sort(misses.begin(), misses.end(),
+                             [](const Miss& a, const Miss& b) { return a.impact.time < b.impact.time; });
+            misses.erase(misses.begin() + std::ptrdiff_t(most), misses.end());
+        }
+        for (const Miss& miss : misses) take(paths, miss);
     }
 }
 
@@ -162,8 +171,10 @@ Missed find_missed_contacts(World& world, double h) {
 }
 
 Missed add_missed_contacts(World& world, double PlantContact::*lacking) {
+    // Contacts that a response adds: those that meet later may then not do so.
+    constexpr size_t MOST = 300;
     Missed missed;
-    for_each_miss(world, lacking == &PlantContact::lacking ? CROSSED : DEEP,
+    for_each_miss(world, lacking == &PlantContact::lacking ? CROSSED : DEEP, MOST,
                   [&](const std::vector<StripPath>& paths, const Miss& miss) {
                       missed.any = true;
                       missed.is_asked |= add_missed(paths, miss, lacking, world.plant_contacts);
@@ -182,7 +193,7 @@ void tell_what_is_behind(World& world, double h) {
 std::vector<PlantBody*> find_crossing_plants(World& world, double h) {
     std::vector<PlantBody*> plants;
     add_plants_in_bodies(world, h, plants);
-    for_each_miss(world, DEEP, [&](const std::vector<StripPath>& paths, const Miss& miss) {
+    for_each_miss(world, DEEP, SIZE_MAX, [&](const std::vector<StripPath>& paths, const Miss& miss) {
         for (const int of : {miss.pair.a, miss.pair.b}) plants.push_back(paths[size_t(of)].body);
     });
     return plants;

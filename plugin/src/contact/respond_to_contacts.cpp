@@ -207,6 +207,8 @@ static void take_back(Waiting& waiting) {
 void respond_to_contacts(World& world, double h) {
     // Responses in a step: they are linear, so that some may go through others in spite of them.
     constexpr int MOST = 5;
+    constexpr double MOST_COUPLINGS = 2e6;  // of their contacts, whose squares they cost
+    double couplings = 0;
     const ResponseRow& response = response_row(world.response);
     if (!response.find) return;
     Waiting waiting = find_waiting(world);
@@ -218,13 +220,14 @@ void respond_to_contacts(World& world, double h) {
         given.resize(islands.size());
         run_jobs(world, islands.size(),
                  [&](size_t i) { given[i] = respond_in(world, response, islands[i], h, waiting.touched); });
+        for (const Given& of : given) couplings += double(of.rows.size()) * double(of.rows.size());
         // Rows point into the contacts that were answered, so the search for missed ones adds to copies.
         std::vector<Contact> contacts = std::move(world.contacts);
         std::vector<PlantContact> plant_contacts = std::move(world.plant_contacts);
         world.contacts = contacts;
         world.plant_contacts = plant_contacts;
         const Missed missed = find_missed_contacts(world, h);
-        if (!missed.is_asked || round == MOST) {
+        if (!missed.is_asked || round == MOST || couplings > MOST_COUPLINGS) {
             world.contacts = std::move(contacts);
             world.plant_contacts = std::move(plant_contacts);
             if (missed.any) held = hold_back_what_passes(world, h);

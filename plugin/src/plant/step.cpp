@@ -72,9 +72,11 @@ static bool is_sound(const Plant& plant) {
 // more than the start, so the first and any later one is a step that can be taken.
 static void minimise(Plant& plant, frond_integrator method, double h, bool from_rest) {
     constexpr int ITERATIONS = 30;
-    constexpr int MOST_WORK = 400;  // evaluations of all forces, about the most that a search needs
+    // Evaluations of all forces: about the most that a search needs, of all searches of a step with contacts together,
+    // and what each of those is granted in any case.
+    constexpr int MOST_WORK = 400, LEAST_WORK = 100;
     SolveSettings settings = plant.step.settings;
-    settings.most_work = MOST_WORK;
+    settings.most_work = is_pushed(plant) ? std::max(LEAST_WORK, MOST_WORK - plant.report.work) : MOST_WORK;
     settings.integrator = method;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;

@@ -110,6 +110,13 @@ struct SolveReport {
         ms_assembly += other.ms_assembly;
         ms_solve += other.ms_solve;
     }
+    // Takes the cost of a solve that went on from this one.
+    void take_cost(const SolveReport& other) {
+        iterations = other.iterations;
+        work = other.work;
+        ms_assembly = other.ms_assembly;
+        ms_solve = other.ms_solve;
+    }
 };
 
 // Scratch space of one plant: matrix values, factor, vectors. Kept from step to step.
