@@ -160,7 +160,7 @@ TEST(BlockFactor, HalvesOfASolveAreThoseOfTheWhole) {
             half_solve(own.factor, by, second);
             EXPECT_TRUE(std::is_sorted(first.rows.begin(), first.rows.end()));
             EXPECT_LT(second.rows.back(), 3 * pattern.node_count);
-            Eigen::Matrix3Xd spread;
+            Columns3 spread;
             std::vector<Mat3> blocks(1, Mat3::Zero());
             add_compliances({&first}, second, spread, blocks);
             Mat3 expected = Mat3::Zero();

@@ -52,7 +52,7 @@ TEST(NodeCompliance, IsThatOfWholeSolvesForEverySolverAndIntegrator) {
                 ASSERT_TRUE(make_compliance(*rig.workspace, rig.settings, pushes[i], compliances[i]));
                 pointers.push_back(&compliances[i]);
             }
-            Eigen::Matrix3Xd spread;
+            Columns3 spread;
             for (size_t j = 0; j < pushes.size(); ++j) {
                 std::vector<Mat3> blocks(pushes.size(), Mat3::Zero());
                 add_compliances(pointers, compliances[j], spread, blocks);

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "core/types.hpp"
+#include "collide/hash.hpp"
 
 namespace frond {
 
@@ -22,6 +22,9 @@ struct StripCore {
     StripQuad at;
     bool is_line;
 };
+
+// Returns the box around a core before and after a step, given by the places of all corners, and around it [m].
+BoxSet::Bounds box_of_way(const Strip& strip, const Vec3* before, const Vec3* after, double around);
 
 // Nearest points of two cores: their weights of the corners. The normal points from b to a.
 struct StripGap {

@@ -7,6 +7,19 @@
 
 namespace frond {
 
+BoxSet::Bounds box_of_way(const Strip& strip, const Vec3* before, const Vec3* after, double around) {
+    BoxSet::Bounds box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+    for (const Vec3* places : {before, after})
+        for (const int corner : strip.corners) {
+            const double* p = places[corner].data();
+            for (int k = 0; k < 3; ++k) {
+                box.lower[k] = std::min(box.lower[k], p[k] - around);
+                box.upper[k] = std::max(box.upper[k], p[k] + around);
+            }
+        }
+    return box;
+}
+
 using Weights = std::array<double, 4>;
 
 constexpr int TRIANGLES[2][3] = {{0, 1, 2}, {3, 2, 1}};

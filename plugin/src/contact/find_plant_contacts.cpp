@@ -238,6 +238,7 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
     result.near = std::move(strips.near);
     memory.island = island;
     memory.crossed = strips.crossed;
+    memory.normals = std::move(strips.normals);
     result.ms_narrow = timer.lap();
     const bool has_cages = std::any_of(island.begin(), island.end(),
                                        [](const PlantBody* body) { return !touches_by_sheath(*body->plant); });

@@ -69,19 +69,23 @@ std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPa
     std::vector<StripPair> anew;
     const bool strayed = have_strayed(memory, paths);
     if (strayed) anew = find_strip_pairs(paths, 0);
-    for (const StripPair& pair : strayed ? anew : memory.pairs) {
+    const std::vector<StripPair>& pairs = strayed ? anew : memory.pairs;
+    for (size_t i = 0; i < pairs.size(); i++) {
+        const StripPair& pair = pairs[i];
         const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
         if (!awaits_contacts(*a.body) || !awaits_contacts(*b.body)) continue;  // a response changes both
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
-        if (stay_apart(core_a, a_after, core_b, b_after, NEAREST * thick) ||
-            pass_by(core_a, a_after, core_b, b_after, NEAREST * thick))
+        const double near = NEAREST * thick;
+        const Vec3 line = strayed ? Vec3(Vec3::Zero()) : memory.normals[i];
+        if ((!line.isZero(0) && stay_apart_along(line, core_a.at, a_after.at, core_b.at, b_after.at, near)) ||
+            stay_apart(core_a, a_after, core_b, b_after, near) || pass_by(core_a, a_after, core_b, b_after, near))
             continue;
         const StripGap before = gap_between(core_a, core_b);
         if (before.distance < crossed * thick) continue;
-        const double near = share * std::min(NEAREST * thick, OF_BEFORE * before.distance);
-        const auto impact = first_impact(core_a, a_after, core_b, b_after, near, before);
+        const double nearest = share * std::min(near, OF_BEFORE * before.distance);
+        const auto impact = first_impact(core_a, a_after, core_b, b_after, nearest, before);
         if (!impact) continue;
         if (std::binary_search(memory.crossed.begin(), memory.crossed.end(), organs_of(paths, pair))) continue;
         misses.push_back({pair, *impact, thick});

@@ -207,7 +207,7 @@ static void take_back(Waiting& waiting) {
 void respond_to_contacts(World& world, double h) {
     // Responses in a step: they are linear, so that some may go through others in spite of them.
     constexpr int MOST = 5;
-    constexpr double MOST_COUPLINGS = 2e6;  // of their contacts, whose squares they cost
+    constexpr double MOST_COUPLINGS = 2e6;  // of an island's contacts, summed over responses, which take that long
     double couplings = 0;
     const ResponseRow& response = response_row(world.response);
     if (!response.find) return;
@@ -220,7 +220,9 @@ void respond_to_contacts(World& world, double h) {
         given.resize(islands.size());
         run_jobs(world, islands.size(),
                  [&](size_t i) { given[i] = respond_in(world, response, islands[i], h, waiting.touched); });
-        for (const Given& of : given) couplings += double(of.rows.size()) * double(of.rows.size());
+        size_t most_rows = 0;
+        for (const Given& of : given) most_rows = std::max(most_rows, of.rows.size());
+        couplings += double(most_rows) * double(most_rows);
         // Rows point into the contacts that were answered, so the search for missed ones adds to copies.
         std::vector<Contact> contacts = std::move(world.contacts);
         std::vector<PlantContact> plant_contacts = std::move(world.plant_contacts);

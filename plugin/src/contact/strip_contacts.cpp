@@ -104,8 +104,10 @@ StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std
     constexpr double MARGIN = 0.001, NEAR = 0.003, CROSSED = 1e-6;  // [m]
     StripContacts result;
     result.near.assign(paths.size(), 0);
+    result.normals.assign(pairs.size(), Vec3::Zero());
     std::vector<OrganPair> organs;  // of each contact
-    for (const StripPair& pair : pairs) {
+    for (size_t i = 0; i < pairs.size(); i++) {
+        const StripPair& pair = pairs[i];
         const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
@@ -117,6 +119,7 @@ StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std
             result.crossed.push_back(organs_of(paths, pair));
             continue;
         }
+        result.normals[i] = now.normal;
         if (now.distance < thick + MARGIN) {
             result.contacts.push_back(contact_of(paths, pair, 0, now));
         } else if (const auto impact = first_impact(core_a, a_after, core_b, b_after, thick + MARGIN, now)) {

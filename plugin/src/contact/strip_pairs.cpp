@@ -20,20 +20,9 @@ void add_box(const BoxSet::Bounds& box, BoxSet::Bounds& to) {
     }
 }
 
-// Plain numbers: this file is compiled without inlining Eigen's.
 BoxSet::Bounds way_box(const StripPath& path, int number, double margin) {
     const Strip& strip = path.strip(number);
-    const double around = strip.radius + 0.5 * margin + path.astray;
-    BoxSet::Bounds box = no_box();
-    for (const Vec3* corners : {path.before, path.after})
-        for (const int corner : strip.corners) {
-            const double* p = corners[corner].data();
-            for (int k = 0; k < 3; k++) {
-                if (p[k] - around < box.lower[k]) box.lower[k] = p[k] - around;
-                if (p[k] + around > box.upper[k]) box.upper[k] = p[k] + around;
-            }
-        }
-    return box;
+    return box_of_way(strip, path.before, path.after, strip.radius + 0.5 * margin + path.astray);
 }
 
 // Boxes of strips, and which they are.

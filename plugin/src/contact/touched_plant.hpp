@@ -11,7 +11,7 @@ struct TouchedPlant {
     std::vector<NodeCompliance> compliances;  // one per attachment
     // Compliances of touches to one of them, of as many of the first ones as there were when it was last asked for.
     std::vector<std::vector<Mat3>> known;
-    Eigen::Matrix3Xd spread;  // scratch
+    Columns3 spread;  // scratch
 };
 
 // Returns the index of the touch at an attachment, which is added if it is new; -1 if the plant has no compliance.

@@ -70,7 +70,7 @@ Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
         all.push_back(&compliances[t]);
     }
     Eigen::MatrixXd W(3 * triples, 3 * triples);
-    Eigen::Matrix3Xd spread;
+    Columns3 spread;
     std::vector<Mat3> blocks;
     for (size_t by = 0; by < triples; by++) {
         blocks.assign(triples, Mat3::Zero());

@@ -37,7 +37,7 @@ double lifting_energy(const Plant& plant) {
 }
 
 // Returns whether the plant has more energy than it had and than the loads and contacts can have given.
-static bool has_energy_from_nowhere(const Plant& plant, double h) {
+static bool has_energy_from_nowhere(Plant& plant, double h) {
     // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-]. The air's
     // work on a chain that turns is known as well as its order alone.
     constexpr double SHARE = 0.01, LIFT = 0.01;
@@ -48,7 +48,12 @@ static bool has_energy_from_nowhere(const Plant& plant, double h) {
     const double given = by_contacts + work.forces + work.grabs + work.air + work.pins + work.error +
                          (plant.follow ? std::abs(work.air) : 0) + work_of_weight(plant, way) +
                          LIFT * lifting_energy(plant);
-    const double after = kinetic_energy(*plant.system, x, plant.state.motion.v) + elastic_energy(plant, x);
+    const double elastic = elastic_energy(plant, x);
+    if (plant.step.push) {
+        plant.step.push->x = x;
+        plant.step.push->elastic = elastic;
+    }
+    const double after = kinetic_energy(*plant.system, x, plant.state.motion.v) + elastic;
     // The energy before the step is seldom needed.
     if (after <= given) return false;
     const double before = kinetic_energy(*plant.system, x_good, plant.step.v_good) + elastic_energy(plant, x_good);

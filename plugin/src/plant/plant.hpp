@@ -136,6 +136,9 @@ struct ContactPush {
     VecX impulse;          // on the nodes of the mechanics [N s]; empty: none
     double share = 1;      // of it that the plant takes, less where it has turned away from what pushes it [-]
     double most_work = 0;  // that it can have done [J]
+    // Where the plant's elastic energy was last computed, and that [J].
+    VecX x;
+    double elastic = 0;
 };
 
 // Scratch of the running step: nothing of it outlives the step but memory.

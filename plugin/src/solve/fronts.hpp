@@ -56,7 +56,7 @@ struct FrontFactor {
     NumbersInLines columns;         // L below its unit diagonal, zero in the four rows above; each number once a lane
     NumbersInLines pivot, inverse;  // D and 1/D, in elimination order
     NumbersInLines ordered, front;  // scratch of solves: the whole vector, and one front's rows
-    Eigen::Matrix3Xd sparse;        // scratch of half-solves; zero between them
+    Columns3 sparse;                // scratch of half-solves; zero between them
     std::vector<uint8_t> reached;
 };
 

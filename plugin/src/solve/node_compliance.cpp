@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/assert.hpp"
+#include "core/lanes.hpp"
 #include "solve/guides.hpp"
 #include "solve/integrator.hpp"
 
@@ -28,14 +29,14 @@ bool make_compliance(Workspace& workspace, const SolveSettings& settings, const 
     // A diagonal matrix has no half of a solve.
     std::sort(free.begin(), free.end(), [](const NodeBlock& a, const NodeBlock& b) { return a.node < b.node; });
     compliance.rows.clear();
-    compliance.left.resize(3, 3 * Eigen::Index(free.size()));
+    compliance.left.setZero(4, 3 * Eigen::Index(free.size()));
     for (const NodeBlock& push : free)
         for (int r = 0; r < 3; ++r) {
-            compliance.left.col(Eigen::Index(compliance.rows.size())) = push.block.row(r).transpose();
+            compliance.left.col(Eigen::Index(compliance.rows.size())).head<3>() = push.block.row(r).transpose();
             compliance.rows.push_back(3 * push.node + r);
         }
     const Eigen::Index n = 3 * Eigen::Index(workspace.held.size());
-    compliance.right.resize(3, n);
+    compliance.right.setZero(4, n);
     VecX impulse(n), velocity;
     for (int axis = 0; axis < 3; ++axis) {
         impulse.setZero();
@@ -46,7 +47,33 @@ bool make_compliance(Workspace& workspace, const SolveSettings& settings, const 
     return true;
 }
 
-void add_compliances(const std::vector<const NodeCompliance*>& at, const NodeCompliance& by, Eigen::Matrix3Xd& spread,
+namespace {
+
+// Sums the products of rows that both have.
+struct AddCompliances {
+    const std::vector<const NodeCompliance*>& at;
+    const double* right;  // of all rows
+    std::vector<Mat3>& blocks;
+    template <class S>
+    FROND_INLINE void run() const {
+        for (size_t i = 0; i < at.size(); ++i) {
+            FourLanes sum[3] = {};
+            const double* left = at[i]->left.data();
+            for (const int row : at[i]->rows) {
+                const FourLanes own = load<FourLanes>(left);
+                const double* other = right + 4 * row;
+                for (int c = 0; c < 3; ++c) sum[c] += own * other[c];
+                left += 4;
+            }
+            for (int c = 0; c < 3; ++c)
+                for (int r = 0; r < 3; ++r) blocks[i](r, c) += sum[c][r];
+        }
+    }
+};
+
+}  // namespace
+
+void add_compliances(const std::vector<const NodeCompliance*>& at, const NodeCompliance& by, Columns3& spread,
                      std::vector<Mat3>& blocks) {
     int most = 0;
     FROND_ASSERT(blocks.size() == at.size());
@@ -55,21 +82,10 @@ void add_compliances(const std::vector<const NodeCompliance*>& at, const NodeCom
     const bool whole = by.right.cols() != Eigen::Index(by.rows.size());
     if (!whole) {
         if (!by.rows.empty()) most = std::max(most, by.rows.back() + 1);
-        if (spread.cols() < most) spread.setZero(3, most);
+        if (spread.cols() < most) spread.setZero(4, most);
         for (size_t k = 0; k < by.rows.size(); ++k) spread.col(by.rows[k]) = by.right.col(Eigen::Index(k));
     }
-    const Eigen::Matrix3Xd& right = whole ? by.right : spread;
-    for (size_t i = 0; i < at.size(); ++i) {
-        double sum[9] = {};  // an array stays in registers, a matrix does not
-        const double* left = at[i]->left.data();
-        for (const int row : at[i]->rows) {
-            const double* other = right.data() + 3 * row;
-            for (int c = 0; c < 3; ++c)
-                for (int r = 0; r < 3; ++r) sum[r + 3 * c] += left[r] * other[c];
-            left += 3;
-        }
-        blocks[i] += Eigen::Map<const Mat3>(sum);
-    }
+    run_in_lanes(AddCompliances{at, (whole ? by.right : spread).data(), blocks});
     if (!whole)
         for (const int row : by.rows) spread.col(row).setZero();
 }

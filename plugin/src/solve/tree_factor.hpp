@@ -33,7 +33,7 @@ struct TreeFactor {
     VecX pivot;                    // D, of one matrix only
     std::vector<uint8_t> begun;    // scratch: one a pair, whether a child was eliminated
     std::vector<uint8_t> reached;  // scratch of half-solves; zero between them
-    Eigen::Matrix3Xd sparse;       // likewise
+    Columns3 sparse;               // likewise
 };
 
 // Returns a bit for each lane of which a pivot is not above zero: A is not positive definite.

@@ -13,13 +13,13 @@ void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<Node
     const size_t count = plan.pairs.size();
     if (factor.reached.size() != count) {
         factor.reached.assign(count, 0);
-        factor.sparse.setZero(3, Eigen::Index(SIX * count));
+        factor.sparse.setZero(4, Eigen::Index(SIX * count));
     }
     // Only pairs on the paths from the given ones to their roots are not zero.
     std::vector<int> path;
     for (const NodeBlock& given : right_side) {
         FROND_ASSERT(given.node >= 0 && size_t(given.node) < 2 * count);
-        for (int r = 0; r < 3; ++r) factor.sparse.col(3 * given.node + r) += given.block.row(r).transpose();
+        for (int r = 0; r < 3; ++r) factor.sparse.col(3 * given.node + r).head<3>() += given.block.row(r).transpose();
         for (int i = given.node / 2; i >= 0 && !factor.reached[size_t(i)]; i = plan.pairs[size_t(i)].parent) {
             factor.reached[size_t(i)] = 1;
             path.push_back(i);
@@ -27,8 +27,8 @@ void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<Node
     }
     std::sort(path.begin(), path.end(), std::greater<>());
     compliance.rows.clear();
-    compliance.left.resize(3, SIX * Eigen::Index(path.size()));
-    compliance.right.resize(3, SIX * Eigen::Index(path.size()));
+    compliance.left.resize(4, SIX * Eigen::Index(path.size()));
+    compliance.right.resize(4, SIX * Eigen::Index(path.size()));
     for (const int i : path) {
         const double* pair = factor.numbers.data() + TreeFactor::NUMBERS * size_t(i);
         const int parent = plan.pairs[size_t(i)].parent;

@@ -56,6 +56,7 @@ struct PlantSearch {
     std::vector<PlantBody*> island;
     std::vector<std::vector<Vec3>> foreseen;  // corners after the step, as they were when pairs were found
     std::vector<StripPair> pairs;             // that come near each other within the step
+    std::vector<Vec3> normals;                // of the gaps of pairs before it; zero: not known
     std::vector<std::array<int, 4>> crossed;  // organs that have gone through each other, as OrganPair
 };
 
