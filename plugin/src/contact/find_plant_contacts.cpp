@@ -229,9 +229,7 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
     Timer timer;
     const std::vector<StripPath> paths = strip_paths(world, island, h, memory);
     result.ms_broad = timer.lap();
-    memory.pairs = find_strip_pairs(paths, 2 * STRAY);
-    memory.foreseen.resize(island.size());
-    for (size_t i = 0; i < island.size(); i++) memory.foreseen[i] = memory.corners[i][1];
+    remember_pairs(paths, memory);
     result.ms_broad += timer.lap();
     StripContacts strips = find_strip_contacts(paths, memory.pairs, last);
     result.contacts = std::move(strips.contacts);

@@ -63,22 +63,21 @@ struct Miss {
 constexpr double CROSSED = 1e-6, DEEP = NEAREST;
 
 // Finds pairs that come too near each other, nearer than `share` of what they may.
-std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPath>& paths, double share,
-                            double crossed) {
+std::vector<Miss> misses_of(PlantSearch& memory, const std::vector<StripPath>& paths, double share, double crossed) {
     std::vector<Miss> misses;
-    std::vector<StripPair> anew;
-    const bool strayed = have_strayed(memory, paths);
-    if (strayed) anew = find_strip_pairs(paths, 0);
-    const std::vector<StripPair>& pairs = strayed ? anew : memory.pairs;
-    for (size_t i = 0; i < pairs.size(); i++) {
-        const StripPair& pair = pairs[i];
+    if (have_strayed(memory, paths)) {
+        remember_pairs(paths, memory);
+        memory.normals.assign(memory.pairs.size(), Vec3::Zero());
+    }
+    for (size_t i = 0; i < memory.pairs.size(); i++) {
+        const StripPair& pair = memory.pairs[i];
         const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
         if (!awaits_contacts(*a.body) || !awaits_contacts(*b.body)) continue;  // a response changes both
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
         const double near = NEAREST * thick;
-        const Vec3 line = strayed ? Vec3(Vec3::Zero()) : memory.normals[i];
+        const Vec3& line = memory.normals[i];
         if ((!line.isZero(0) && stay_apart_along(line, core_a.at, a_after.at, core_b.at, b_after.at, near)) ||
             stay_apart(core_a, a_after, core_b, b_after, near) || pass_by(core_a, a_after, core_b, b_after, near))
             continue;
@@ -194,9 +193,10 @@ void tell_what_is_behind(World& world, double h) {
             world.report.trouble |= FROND_TROUBLE_PASSED;
 }
 
-std::vector<PlantBody*> find_crossing_plants(World& world, double h) {
+std::vector<PlantBody*> find_crossing_plants(World& world, double h, bool by_plants) {
     std::vector<PlantBody*> plants;
     add_plants_in_bodies(world, h, plants);
+    if (!by_plants) return plants;
     for_each_miss(world, DEEP, SIZE_MAX, [&](const std::vector<StripPath>& paths, const Miss& miss) {
         for (const int of : {miss.pair.a, miss.pair.b}) plants.push_back(paths[size_t(of)].body);
     });

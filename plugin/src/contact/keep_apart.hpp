@@ -21,9 +21,9 @@ Missed find_missed_contacts(World& world, double h);
 Missed add_missed_contacts(World& world, double PlantContact::*lacking);
 // Reports plants that a kinematic body has come past, whatever was asked of their contacts.
 void tell_what_is_behind(World& world, double h);
-// Returns the plants that go through each other, or through bodies that move fast, on their ways in the step; some
-// twice.
-std::vector<PlantBody*> find_crossing_plants(World& world, double h);
+// Returns the plants that go through bodies that move fast, or, if asked, through each other, on their ways in the step;
+// some twice.
+std::vector<PlantBody*> find_crossing_plants(World& world, double h, bool by_plants);
 // Adds those that go through a body.
 void add_plants_in_bodies(const World& world, double h, std::vector<PlantBody*>& plants);
 // Returns the share of the step's way that an island's plants may go until strips would go through each other.

@@ -65,8 +65,8 @@ StripBoxes gather_strips(const std::vector<StripPath>& paths, double margin) {
     return wanted;
 }
 
-}  // namespace
-
+// Finds the pairs that come nearer than `margin` [m] within the step, by their boxes; those near each other as
+// modelled, as at a joint, are left out.
 std::vector<StripPair> find_strip_pairs(const std::vector<StripPath>& paths, double margin) {
     const StripBoxes boxes = gather_strips(paths, margin);
     std::vector<StripPair> pairs;
@@ -82,6 +82,14 @@ std::vector<StripPair> find_strip_pairs(const std::vector<StripPath>& paths, dou
     const auto key = [](const StripPair& p) { return std::tie(p.a, p.b, p.strip_a, p.strip_b); };
     std::sort(pairs.begin(), pairs.end(), [&](const StripPair& p, const StripPair& q) { return key(p) < key(q); });
     return pairs;
+}
+
+}  // namespace
+
+void remember_pairs(const std::vector<StripPath>& paths, PlantSearch& memory) {
+    memory.pairs = find_strip_pairs(paths, 2 * STRAY);
+    memory.foreseen.resize(paths.size());
+    for (size_t i = 0; i < paths.size(); i++) memory.foreseen[i] = memory.corners[i][1];
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -20,10 +20,6 @@ struct StripPath {
     const Strip& strip(int number) const { return body->touched().strips[size_t(number)]; }
 };
 
-// Finds the pairs that come nearer than `margin` [m] within the step, by their boxes; those near each other as
-// modelled, as at a joint, are left out.
-std::vector<StripPair> find_strip_pairs(const std::vector<StripPath>& paths, double margin);
-
 // Makes the contact of a pair that has the gap at a time of the step: it keeps the two, from where they are before the
 // step, as far apart as they are thick, along the gap's normal.
 PlantContact contact_of(const std::vector<StripPath>& paths, const StripPair& pair, double time, const StripGap& gap);
@@ -40,11 +36,13 @@ struct StripContacts {
     std::vector<Vec3> normals;       // one per pair, of its gap before the step; zero: not known
 };
 // `last`: contacts of the last substep, whose impulses begin the next search for them.
-// `pairs`: from find_strip_pairs.
+// `pairs`: that come near each other within the step.
 StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std::vector<StripPair>& pairs,
                                   const std::vector<const PlantContact*>& last);
 // How far the corners of two plants may stray from the foreseen ways, before pairs have to be found anew [m].
 constexpr double STRAY = 0.003;
+// Finds the pairs that come near each other on ways that stray no farther from these, and remembers both.
+void remember_pairs(const std::vector<StripPath>& paths, PlantSearch& memory);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond
