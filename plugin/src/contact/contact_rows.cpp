@@ -11,6 +11,19 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
+void point_at(Contact& contact, ContactRow& row) {
+    row.impulse = &contact.impulse;
+    row.pushed_on = &contact.pushed_on;
+    row.work = &contact.work;
+}
+void point_at(PlantContact& contact, ContactRow& row) {
+    row.impulse = &contact.impulse;
+}
+void point_at(Bond& bond, ContactRow& row) {
+    row.impulse = &bond.impulse;
+    row.work = &bond.work;
+}
+
 // Returns how fast overlapping sides must part: by a share of the overlap beyond the slop per step, up to `fastest`
 // [m/s].
 double parting_speed(double depth, double slop, double h, double share, double fastest) {
@@ -59,9 +72,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.touch.bias_velocity += contact.shortfall.lacking / h;
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;
-    row.impulse = &contact.impulse;
-    row.pushed_on = &contact.pushed_on;
-    row.work = &contact.work;
+    point_at(contact, row);
     contact.work = 0;
     contact.pushed_on = row.contact_body.velocity;
     rows.push_back(std::move(row));
@@ -119,7 +130,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Co
     row.touch.least_correction += contact.lacking_place / h;
     row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
     row.touch.depth = contact.depth;
-    row.impulse = &contact.impulse;
+    point_at(contact, row);
     rows.push_back(std::move(row));
 }
 
@@ -156,8 +167,7 @@ void add_row(Bond& bond, double h, std::vector<ContactRow>& rows) {
     row.touch.wanted = SHARE / h * (place - plant.to_world(attachment_place(attachment, plant.step.x_good)));
     if (row.touch.wanted.norm() > FASTEST) row.touch.wanted *= FASTEST / row.touch.wanted.norm();
     row.touch.bias_velocity = row.touch.friction = 0;
-    row.impulse = &bond.impulse;
-    row.work = &bond.work;
+    point_at(bond, row);
     rows.push_back(std::move(row));
 }
 
@@ -166,10 +176,28 @@ void add_row(Bond& bond, double h, std::vector<ContactRow>& rows) {
 std::vector<ContactRow> make_rows(const World& world, const ContactIsland& island, double h) {
     std::vector<ContactRow> rows;
     wake_pushed(island.with_bodies);
-    for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
-    for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
-    for (Bond* bond : island.bonds) add_row(*bond, h, rows);
+    const auto add = [&](const auto& list, const auto& add_one) {
+        for (size_t i = 0; i < list.size(); i++) {
+            const size_t before = rows.size();
+            add_one(*list[i]);
+            if (rows.size() > before) rows.back().number = i;
+        }
+    };
+    add(island.with_bodies, [&](Contact& contact) { add_row(world, contact, h, rows); });
+    add(island.with_plants, [&](PlantContact& contact) { add_row(world, contact, h, rows); });
+    add(island.bonds, [&](Bond& bond) { add_row(bond, h, rows); });
     return rows;
+}
+
+void point_at(const ContactIsland& island, std::vector<ContactRow>& rows) {
+    for (ContactRow& row : rows) {
+        if (row.plants[1])
+            point_at(*island.with_plants[row.number], row);
+        else if (row.touch.is_bond)
+            point_at(*island.bonds[row.number], row);
+        else
+            point_at(*island.with_bodies[row.number], row);
+    }
 }
 
 std::vector<ContactRow> make_correction_rows(const World& world, const ContactIsland& island, double h) {

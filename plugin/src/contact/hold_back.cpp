@@ -38,15 +38,20 @@ ObjectMotion pushed_motion(const World& world, const SweptBody& swept, double h)
     return motion;
 }
 
-// Calls `take` for each hit of a body, as it goes on, with the plants whose steps may still change.
+// Calls `take` for each hit of a body, as it goes on, with the plants that it may hit and whose steps may still change.
 void find_hits_in_step(const World& world, const SweptBody& swept, double h,
+                       const std::function<bool(const PlantBody&)>& may_hit,
                        const std::function<void(PlantBody&, const Hit&)>& take) {
     // Links would need the motion of the whole robot.
     if (!btRigidBody::upcast(swept.object)) return;
     const ObjectMotion motion = pushed_motion(world, swept, h);
     for (PlantBody* body : swept.plants)
-        if (awaits_contacts(*body))
+        if (awaits_contacts(*body) && may_hit(*body))
             find_hits(*body, motion_in_step(*body), *swept.object, motion, [&](const Hit& hit) { take(*body, hit); });
+}
+
+bool any_plant(const PlantBody&) {
+    return true;
 }
 
 // Returns how deep the pieces of a hit are in each other where they first touch [m].
@@ -99,7 +104,7 @@ void group_bodies(World& world, double h, Groups& groups) {
         for (const Contact& contact : world.contacts)
             if (is_pushed && contact.other == swept.object && pushes_back(world, *contact.plant))
                 groups.sets.join(contact.plant->number, member);
-        find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
+        find_hits_in_step(world, swept, h, any_plant, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), most = most_depth(body, hit), before = depth_before(hit);
             if (!is_pushed || !pushes_back(world, body)) {
                 if (after > radius_of(body, hit.capsule)) world.report.trouble |= FROND_TROUBLE_PASSED;
@@ -138,26 +143,38 @@ bool slides_over_joint(const World& world, const PlantBody& body, const SweptBod
 
 }  // namespace
 
-void add_passed_contacts(World& world, double h, Missed& missed) {
-    bool any = false;
+void add_passed_contacts(World& world, double h, const Answers& answers, Missed& missed) {
+    std::vector<const PlantBody*> added;
     std::vector<Contact> contacts = world.contacts;
-    for (const SweptBody& swept : world.swept)
-        find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
+    const auto stands = [&](const PlantBody& body, Answer as) { return answers[size_t(body.number)] == as; };
+    for (const SweptBody& swept : world.swept) {
+        const bool goes_otherwise =
+            std::any_of(world.contacts.begin(), world.contacts.end(), [&](const Contact& contact) {
+                return contact.other == swept.object && stands(*contact.plant, Answer::fresh);
+            });
+        const auto may_hit = [&](const PlantBody& body) {
+            return stands(body, Answer::fresh) || (goes_otherwise && stands(body, Answer::kept));
+        };
+        find_hits_in_step(world, swept, h, may_hit, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), deeper = after - depth_before(hit);
             if (deeper <= least_miss(body, hit.capsule)) return;
             if (slides_over_joint(world, body, swept, hit)) return;
-            missed.any |= after > most_depth(body, hit);
-            any |= add_hit(world, body, swept, hit, contacts);
+            if (after > most_depth(body, hit)) missed.passed.push_back(&body);
+            if (add_hit(world, body, swept, hit, contacts)) added.push_back(&body);
         });
-    if (!any) return;
+    }
+    if (added.empty()) return;
     drop_what_draws_out(contacts);
-    if (contacts.size() > world.contacts.size()) missed.any = missed.is_asked = true;
+    if (contacts.size() > world.contacts.size()) {
+        missed.passed.insert(missed.passed.end(), added.begin(), added.end());
+        missed.asked.insert(missed.asked.end(), added.begin(), added.end());
+    }
     world.contacts = std::move(contacts);
 }
 
 void add_plants_in_bodies(const World& world, double h, std::vector<PlantBody*>& plants) {
     for (const SweptBody& swept : world.swept)
-        find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
+        find_hits_in_step(world, swept, h, any_plant, [&](PlantBody& body, const Hit& hit) {
             if (depth_after(hit) > most_depth(body, hit)) plants.push_back(&body);
         });
 }

@@ -62,8 +62,14 @@ struct Miss {
 // [-]: what impulses move, and what is moved to part the plants.
 constexpr double CROSSED = 1e-6, DEEP = NEAREST;
 
-// Finds pairs that come too near each other, nearer than `share` of what they may.
-std::vector<Miss> misses_of(PlantSearch& memory, const std::vector<StripPath>& paths, double share, double crossed) {
+bool stands(const PlantBody& body, const Answers& answers, Answer as) {
+    return answers[size_t(body.number)] == as;
+}
+
+// Finds pairs that come too near each other, nearer than `share` of what they may; if there are answers, only of those
+// that the last response moved, with others that may still move.
+std::vector<Miss> misses_of(PlantSearch& memory, const std::vector<StripPath>& paths, double share, double crossed,
+                            const Answers* answers) {
     std::vector<Miss> misses;
     if (have_strayed(memory, paths)) {
         remember_pairs(paths, memory);
@@ -73,6 +79,10 @@ std::vector<Miss> misses_of(PlantSearch& memory, const std::vector<StripPath>& p
         const StripPair& pair = memory.pairs[i];
         const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
         if (!awaits_contacts(*a.body) || !awaits_contacts(*b.body)) continue;  // a response changes both
+        const auto either_stands = [&](Answer as) {
+            return stands(*a.body, *answers, as) || stands(*b.body, *answers, as);
+        };
+        if (answers && (!either_stands(Answer::fresh) || either_stands(Answer::last))) continue;
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
@@ -94,12 +104,15 @@ std::vector<Miss> misses_of(PlantSearch& memory, const std::vector<StripPath>& p
 
 // Calls `take` for each miss of the world's plants; of an island's only for the first ones in the step if they are more
 // than `most`.
-void for_each_miss(World& world, double crossed, size_t most,
+void for_each_miss(World& world, double crossed, size_t most, const Answers* answers,
                    const std::function<void(const std::vector<StripPath>& paths, const Miss& miss)>& take) {
+    const auto is_fresh = [&](const PlantBody* body) { return !answers || stands(*body, *answers, Answer::fresh); };
     for (size_t i = 0; i < world.plant_island_count; i++) {
-        const std::vector<StripPath> paths = paths_of(*world.plant_searches[i]);
+        PlantSearch& memory = *world.plant_searches[i];
+        if (std::none_of(memory.island.begin(), memory.island.end(), is_fresh)) continue;
+        const std::vector<StripPath> paths = paths_of(memory);
         if (paths.empty()) continue;
-        std::vector<Miss> misses = misses_of(*world.plant_searches[i], paths, 1, crossed);
+        std::vector<Miss> misses = misses_of(memory, paths, 1, crossed, answers);
         if (misses.size() > most) {
             std::stable_sort(misses.begin(), misses.end(),
                              [](const Miss& a, const Miss& b) { return a.impact.time < b.impact.time; });
@@ -164,23 +177,31 @@ double least_miss(const PlantBody& body, int capsule) {
     return std::max(NO_MATTER, SHARE * radius_of(body, capsule));
 }
 
-Missed find_missed_contacts(World& world, double h) {
+Missed find_missed_contacts(World& world, double h, const Answers& answers) {
     Missed missed;
-    for (Contact& contact : world.contacts) missed.is_asked |= ask_for_more(contact, h);
-    missed.any = missed.is_asked;
-    add_passed_contacts(world, h, missed);
-    const Missed of_plants = add_missed_contacts(world, &PlantContact::lacking);
-    return {missed.any || of_plants.any, missed.is_asked || of_plants.is_asked};
+    for (Contact& contact : world.contacts)
+        if (stands(*contact.plant, answers, Answer::fresh) && ask_for_more(contact, h))
+            missed.asked.push_back(contact.plant);
+    missed.passed = missed.asked;
+    add_passed_contacts(world, h, answers, missed);
+    const Missed of_plants = add_missed_contacts(world, &PlantContact::lacking, answers);
+    missed.passed.insert(missed.passed.end(), of_plants.passed.begin(), of_plants.passed.end());
+    missed.asked.insert(missed.asked.end(), of_plants.asked.begin(), of_plants.asked.end());
+    return missed;
 }
 
-Missed add_missed_contacts(World& world, double PlantContact::*lacking) {
+Missed add_missed_contacts(World& world, double PlantContact::*lacking, const Answers& answers) {
     // Contacts that a response adds: those that meet later may then not do so.
     constexpr size_t MOST = 300;
     Missed missed;
-    for_each_miss(world, lacking == &PlantContact::lacking ? CROSSED : DEEP, MOST,
+    for_each_miss(world, lacking == &PlantContact::lacking ? CROSSED : DEEP, MOST, &answers,
                   [&](const std::vector<StripPath>& paths, const Miss& miss) {
-                      missed.any = true;
-                      missed.is_asked |= add_missed(paths, miss, lacking, world.plant_contacts);
+                      const bool is_asked = add_missed(paths, miss, lacking, world.plant_contacts);
+                      for (const int of : {miss.pair.a, miss.pair.b}) {
+                          const PlantBody* body = paths[size_t(of)].body;
+                          missed.passed.push_back(body);
+                          if (is_asked) missed.asked.push_back(body);
+                      }
                   });
     return missed;
 }
@@ -197,7 +218,7 @@ std::vector<PlantBody*> find_crossing_plants(World& world, double h, bool by_pla
     std::vector<PlantBody*> plants;
     add_plants_in_bodies(world, h, plants);
     if (!by_plants) return plants;
-    for_each_miss(world, DEEP, SIZE_MAX, [&](const std::vector<StripPath>& paths, const Miss& miss) {
+    for_each_miss(world, DEEP, SIZE_MAX, nullptr, [&](const std::vector<StripPath>& paths, const Miss& miss) {
         for (const int of : {miss.pair.a, miss.pair.b}) plants.push_back(paths[size_t(of)].body);
     });
     return plants;
@@ -208,7 +229,8 @@ double way_until_crossing(PlantSearch& memory) {
     const std::vector<StripPath> paths = paths_of(memory);
     double share = 1;
     if (paths.empty()) return share;
-    for (const Miss& miss : misses_of(memory, paths, WITHIN, CROSSED)) share = std::min(share, SAFE * miss.impact.time);
+    for (const Miss& miss : misses_of(memory, paths, WITHIN, CROSSED, nullptr))
+        share = std::min(share, SAFE * miss.impact.time);
     return share;
 }
 

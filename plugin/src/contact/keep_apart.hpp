@@ -7,22 +7,27 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// Whether something went through another thing in spite of all contacts, and whether the next response is asked for
-// more.
+// How a plant stands between two responses of a step: its island was answered by the last one, or before and stays as
+// it is, and may then meet what moves otherwise now, or its island gets no more responses.
+enum class Answer : uint8_t { fresh, kept, last };
+using Answers = std::vector<Answer>;  // by the plants' numbers
+
+// Plants that something went through in spite of all contacts, or nearly, and those of whose islands the next response
+// is asked for more; some twice.
 struct Missed {
-    bool any = false, is_asked = false;
+    std::vector<const PlantBody*> passed, asked;
 };
 // Returns how deep a body goes into a segment before that counts as missed [m].
 double least_miss(const PlantBody& body, int capsule);
 // Looks at the ways that watched plants went with the contacts that are known. Where strips, or bodies, went through
 // them, or nearly, it adds contacts or has those that are known ask for more.
-Missed find_missed_contacts(World& world, double h);
+Missed find_missed_contacts(World& world, double h, const Answers& answers);
 // Does so where plants went through plants, or nearly. `lacking`: of what the contacts ask for more.
-Missed add_missed_contacts(World& world, double PlantContact::*lacking);
+Missed add_missed_contacts(World& world, double PlantContact::*lacking, const Answers& answers);
 // Reports plants that a kinematic body has come past, whatever was asked of their contacts.
 void tell_what_is_behind(World& world, double h);
-// Returns the plants that go through bodies that move fast, or, if asked, through each other, on their ways in the step;
-// some twice.
+// Returns the plants that go through bodies that move fast, or, if asked, through each other, on their ways in the
+// step; some twice.
 std::vector<PlantBody*> find_crossing_plants(World& world, double h, bool by_plants);
 // Adds those that go through a body.
 void add_plants_in_bodies(const World& world, double h, std::vector<PlantBody*>& plants);
@@ -35,7 +40,7 @@ bool add_hit(World& world, PlantBody& body, const SweptBody& swept, const Hit& h
 
 // Looks at the ways that waiting plants went with the contacts that are known, and that bodies will go once these have
 // pushed them. Where a body goes through a plant, it adds a contact.
-void add_passed_contacts(World& world, double h, Missed& missed);
+void add_passed_contacts(World& world, double h, const Answers& answers, Missed& missed);
 
 // A free body that goes only a share of its way.
 struct HeldBody {

@@ -12,6 +12,7 @@
 #include "contact/keep_apart.hpp"
 #include "contact/part_plants.hpp"
 #include "contact/strip_search.hpp"
+#include "core/elementary.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -28,11 +29,18 @@ void end_steps(const ContactIsland& island) {
     for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending);
 }
 
-// Rows of an island and their impulses.
+// How an island was answered: its rows and their impulses.
 struct Given {
     std::vector<ContactRow> rows;
     std::vector<Vec3> impulses;
+    std::vector<PlantBody*> plants;
+    size_t contacts = 0;   // number of contacts and bonds
+    double couplings = 0;  // between rows, summed over all responses of the step
 };
+
+size_t contacts_of(const ContactIsland& island) {
+    return island.with_bodies.size() + island.with_plants.size() + island.bonds.size();
+}
 
 // Computes how fast bodies go on once they are pushed, and their work on plants: impulses times mean velocities, to
 // which a bond adds that by which it comes back together.
@@ -53,7 +61,8 @@ void go_on(const World& world, Given& given) {
 
 // Applies the rows' impulses to the plants.
 void give_to_plants(const ContactIsland& island, Given& given) {
-    auto& [rows, impulses] = given;
+    const std::vector<ContactRow>& rows = given.rows;
+    const std::vector<Vec3>& impulses = given.impulses;
     for (size_t i = 0; i < rows.size(); i++) {
         *rows[i].impulse = impulses[i];
         if (impulses[i].isZero(0)) continue;
@@ -68,7 +77,8 @@ void give_to_plants(const ContactIsland& island, Given& given) {
 
 // Applies the rows' impulses to the bodies. Returns the rigid ones among them.
 std::vector<btRigidBody*> give_to_bodies(const World& world, Given& given) {
-    auto& [rows, impulses] = given;
+    const std::vector<ContactRow>& rows = given.rows;
+    const std::vector<Vec3>& impulses = given.impulses;
     std::vector<btRigidBody*> pushed;
     std::vector<BodyPush> all;
     for (size_t i = 0; i < impulses.size(); i++) {
@@ -150,7 +160,8 @@ bool stop_asking(const ContactIsland& island, const CoupledRows& coupled, const 
 Given respond_in(const World& world, const ResponseRow& response, const ContactIsland& island, double h,
                  std::vector<TouchedPlant>& touched) {
     Given given;
-    auto& [rows, impulses] = given;
+    std::vector<ContactRow>& rows = given.rows;
+    std::vector<Vec3>& impulses = given.impulses;
     take_inertias(island);
     for (bool again = true; again;) {
         rows = make_rows(world, island, h);
@@ -193,57 +204,129 @@ static Waiting find_waiting(const World& world) {
     return waiting;
 }
 
-// Takes the response back. What was solved again in its workspace has another factor, as it would foretell the next
-// push.
-static void take_back(Waiting& waiting) {
-    for (size_t i = 0; i < waiting.bodies.size(); i++) {
-        Plant& plant = *waiting.bodies[i]->plant;
-        if (!plant.follow && plant.trouble & FROND_TROUBLE_RETRIED)
-            waiting.touched[size_t(waiting.bodies[i]->number)] = {};
-        take_back(plant, waiting.steps[i]);
-    }
+// Takes the response of a plant back. What was solved again in its workspace has another factor, as it would foretell
+// the next push.
+static void take_back(Waiting& waiting, size_t i) {
+    const PlantBody& body = *waiting.bodies[i];
+    if (!body.plant->follow && body.plant->trouble & FROND_TROUBLE_RETRIED) waiting.touched[size_t(body.number)] = {};
+    take_back(*body.plant, waiting.steps[i]);
 }
+
+namespace {
+
+// Couplings of an island after which it gets no more responses in a step, which take as long as there are couplings.
+constexpr double MOST_COUPLINGS = 5e5;
+
+// The responses of a step, island by island.
+struct Responses {
+    std::vector<Given> given;
+    // By the plants' numbers; `passed`: something goes through one as it is now, or nearly.
+    Answers answers;
+    std::vector<uint8_t> asked, passed;
+    std::vector<int> given_of;  // -1: none
+    explicit Responses(size_t plants)
+        : answers(plants, Answer::fresh), asked(plants, 0), passed(plants, 0), given_of(plants, -1) {}
+};
+
+// Returns what the last response gave an island, if that still is the answer; null where contacts came, went or ask for
+// more.
+Given* standing_answer(Responses& all, const ContactIsland& island) {
+    const int before = all.given_of[size_t(island.plants[0]->number)];
+    if (before < 0) return nullptr;
+    Given& given = all.given[size_t(before)];
+    const auto differs = [&](const PlantBody* body) {
+        return all.given_of[size_t(body->number)] != before || all.asked[size_t(body->number)];
+    };
+    if (std::any_of(island.plants.begin(), island.plants.end(), differs)) return nullptr;
+    return given.plants.size() == island.plants.size() && given.contacts == contacts_of(island) ? &given : nullptr;
+}
+
+// Answers the islands that have no standing answer.
+void respond_again(World& world, const ResponseRow& response, double h, Waiting& waiting, Responses& all) {
+    const std::vector<ContactIsland> islands = find_contact_islands(world);
+    std::vector<Given> given(islands.size());
+    std::vector<size_t> open;  // islands
+    std::vector<uint8_t> stands(all.answers.size(), 0);
+    for (size_t i = 0; i < islands.size(); i++) {
+        if (Given* standing = standing_answer(all, islands[i])) {
+            given[i] = std::move(*standing);
+            point_at(islands[i], given[i].rows);
+            for (const PlantBody* body : given[i].plants) stands[size_t(body->number)] = 1;
+            continue;
+        }
+        open.push_back(i);
+        for (const PlantBody* body : islands[i].plants)
+            if (const int of = all.given_of[size_t(body->number)]; of >= 0)
+                given[i].couplings = std::max(given[i].couplings, all.given[size_t(of)].couplings);
+    }
+    for (size_t i = 0; i < waiting.bodies.size(); i++) {
+        const size_t number = size_t(waiting.bodies[i]->number);
+        if (all.given_of[number] >= 0 && !stands[number]) take_back(waiting, i);
+    }
+    run_jobs(world, open.size(), [&](size_t k) {
+        const ContactIsland& island = islands[open[k]];
+        Given& to = given[open[k]];
+        const double couplings = to.couplings;
+        to = respond_in(world, response, island, h, waiting.touched);
+        to.plants = island.plants;
+        to.contacts = contacts_of(island);
+        to.couplings = couplings + squared(double(to.rows.size()));
+    });
+    for (const size_t i : open)
+        for (const PlantBody* body : given[i].plants)
+            all.answers[size_t(body->number)] = given[i].couplings > MOST_COUPLINGS ? Answer::last : Answer::fresh;
+    all.given = std::move(given);
+    std::fill(all.given_of.begin(), all.given_of.end(), -1);
+    for (size_t i = 0; i < all.given.size(); i++)
+        for (const PlantBody* body : all.given[i].plants) all.given_of[size_t(body->number)] = int(i);
+}
+
+// Looks for what the contacts missed. Returns whether islands are to be answered again.
+bool ask_again(World& world, double h, Responses& all) {
+    const Missed missed = find_missed_contacts(world, h, all.answers);
+    for (size_t i = 0; i < all.answers.size(); i++) {
+        all.asked[i] = 0;
+        if (all.answers[i] == Answer::fresh) all.passed[i] = 0;
+        if (all.answers[i] == Answer::last) all.passed[i] = 1;
+    }
+    for (const PlantBody* body : missed.passed) all.passed[size_t(body->number)] = 1;
+    for (const PlantBody* body : missed.asked) all.asked[size_t(body->number)] = 1;
+    for (Answer& answer : all.answers)
+        if (answer == Answer::fresh) answer = Answer::kept;
+    return !missed.asked.empty();
+}
+
+}  // namespace
 
 void respond_to_contacts(World& world, double h) {
     // Responses in a step: they are linear, so that some may go through others in spite of them.
     constexpr int MOST = 5;
-    constexpr double MOST_COUPLINGS = 2e6;  // of an island's contacts, summed over responses, which take that long
-    double couplings = 0;
     const ResponseRow& response = response_row(world.response);
     if (!response.find) return;
     Waiting waiting = find_waiting(world);
-    std::vector<Given> given;
-    std::vector<HeldBody> held;
+    Responses all(world.taking_part.size());
     for (int round = 1;; round++) {
-        const std::vector<ContactIsland> islands = find_contact_islands(world);
-        given.clear();
-        given.resize(islands.size());
-        run_jobs(world, islands.size(),
-                 [&](size_t i) { given[i] = respond_in(world, response, islands[i], h, waiting.touched); });
-        size_t most_rows = 0;
-        for (const Given& of : given) most_rows = std::max(most_rows, of.rows.size());
-        couplings += double(most_rows) * double(most_rows);
+        respond_again(world, response, h, waiting, all);
         // Rows point into the contacts that were answered, so the search for missed ones adds to copies.
         std::vector<Contact> contacts = std::move(world.contacts);
         std::vector<PlantContact> plant_contacts = std::move(world.plant_contacts);
         world.contacts = contacts;
         world.plant_contacts = plant_contacts;
-        const Missed missed = find_missed_contacts(world, h);
-        if (!missed.is_asked || round == MOST || couplings > MOST_COUPLINGS) {
-            world.contacts = std::move(contacts);
-            world.plant_contacts = std::move(plant_contacts);
-            if (missed.any) held = hold_back_what_passes(world, h);
-            break;
-        }
-        take_back(waiting);
+        if (ask_again(world, h, all) && round < MOST) continue;
+        world.contacts = std::move(contacts);
+        world.plant_contacts = std::move(plant_contacts);
+        break;
     }
-    for (Given& of : given) {
+    std::vector<HeldBody> held;
+    if (std::any_of(all.passed.begin(), all.passed.end(), [](uint8_t passed) { return passed != 0; }))
+        held = hold_back_what_passes(world, h);
+    for (Given& of : all.given) {
         if (bound_gain(of.rows, h, of.impulses)) go_on(world, of);
         take_back_from_rewound(world, of);
     }
     tell_what_is_behind(world, h);
     part_plants(world, h, waiting.touched);
-    for (Given& of : given)
+    for (Given& of : all.given)
         for (btRigidBody* body : give_to_bodies(world, of)) give_gravity(world.gravity_ahead, *body, h);
     for (const HeldBody& body : held) put_back(world, body, h);
 }
