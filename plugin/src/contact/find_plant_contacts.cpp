@@ -140,12 +140,14 @@ PlacedIsland placed_now(const World& world, const std::vector<PlantBody*>& islan
 std::vector<StripPath> strip_paths(const World& world, const std::vector<PlantBody*>& island, double h,
                                    PlantSearch& memory) {
     memory.corners.resize(std::max(memory.corners.size(), island.size()));
+    memory.placed.resize(memory.corners.size());
     std::vector<StripPath> paths;
     VecX then;
     for (size_t i = 0; i < island.size(); i++) {
         auto& [before, after] = memory.corners[i];
         const Motion& motion = island[i]->plant->state.motion;
         place_corners(*island[i], motion.x, before);
+        memory.placed[i] = motion.x;
         then = motion.x + h * motion.v;
         place_corners(*island[i], then, after);
         paths.push_back({island[i], before.data(), after.data(),

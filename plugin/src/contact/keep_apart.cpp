@@ -23,13 +23,16 @@ std::vector<StripPath> paths_of(PlantSearch& memory) {
     std::vector<StripPath> paths;
     const auto is_watched = [](const PlantBody* body) { return body->plant->step.is_watched && has_step(*body); };
     if (std::none_of(memory.island.begin(), memory.island.end(), is_watched)) return paths;
-    memory.corners.resize(std::max(memory.corners.size(), memory.island.size()));
     for (size_t i = 0; i < memory.island.size(); i++) {
         PlantBody& body = *memory.island[i];
         take_collider(body);
         auto& [before, after] = memory.corners[i];
         const bool steps = has_step(body);
-        place_corners(body, steps ? body.plant->step.x_good : body.plant->state.motion.x, before);
+        const VecX &from = steps ? body.plant->step.x_good : body.plant->state.motion.x, &placed = memory.placed[i];
+        if (placed.size() != from.size() || placed != from) {
+            place_corners(body, from, before);
+            memory.placed[i] = from;
+        }
         if (steps)
             place_corners(body, body.plant->state.motion.x, after);
         else
