@@ -126,6 +126,7 @@ std::vector<PlantBody*> plants_near(Search& search, const btCollisionObject& obj
         if (!takes_part(search.world, body) || body->plant->state.modal || !may_meet(*body, object)) continue;
         if (!moves && (body->rest.asleep || motion_in(search, *body).farthest < far)) continue;
         plants.push_back(&look_at(*body));
+        body->met_in = search.world.substep;
     }
     std::sort(plants.begin(), plants.end(), [](const PlantBody* a, const PlantBody* b) { return a->index < b->index; });
     return plants;

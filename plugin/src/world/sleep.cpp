@@ -84,11 +84,15 @@ void fall_asleep(World& world, PlantBody& body) {
 }
 
 void compress_looked_at(World& world) {
-    for (PlantBody* body : world.looked_at) {
+    // What came near it stays so for a while.
+    const auto is_done = [&](PlantBody* body) {
+        if (body->is_looked_at && body->rest.asleep && body->met_in == world.substep) return false;
         if (body->is_looked_at && body->rest.asleep) compress(*body->plant, world.sleep_distance, true);
         body->is_looked_at = false;
-    }
-    world.looked_at.clear();
+        return true;
+    };
+    world.looked_at.erase(std::remove_if(world.looked_at.begin(), world.looked_at.end(), is_done),
+                          world.looked_at.end());
 }
 
 PlantBody& look_at(PlantBody& body) {
