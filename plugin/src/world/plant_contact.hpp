@@ -53,7 +53,7 @@ struct PlantSearch {
     };
     std::vector<Shape> shapes;
     std::vector<std::array<std::vector<Vec3>, 2>> corners;  // of strips, before and after the step, one per plant
-    std::vector<VecX> placed;  // states of the plants that those before the step belong to
+    std::vector<VecX> placed;                               // states of the plants that those before the step belong to
     std::vector<PlantBody*> island;
     std::vector<std::vector<Vec3>> foreseen;  // corners after the step, as they were when pairs were found
     std::vector<StripPair> pairs;             // that come near each other within the step
