@@ -4,6 +4,8 @@
 // turning shape approaches by no more than its rate of turning times the distance of its farthest point.
 #include "contact/shape_impact.hpp"
 
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
@@ -12,6 +14,7 @@
 #include <cmath>
 
 #include "collide/advance.hpp"
+#include "surface/triangle_distance.hpp"
 #include "world/convert.hpp"
 
 namespace frond {
@@ -53,6 +56,38 @@ struct GapFinder {
     }
 };
 
+// A sphere or capsule: all points within a radius of a segment.
+struct Round {
+    Vec3 begin, end;
+    double radius;  // [m]
+};
+
+// Returns whether a shape is round, and as what.
+bool is_round(const MovingShape& shape, Round& round) {
+    btVector3 half(0, 0, 0);
+    if (shape.shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE) {
+        round.radius = double(static_cast<const btSphereShape&>(shape.shape).getRadius());
+    } else if (shape.shape.getShapeType() == CAPSULE_SHAPE_PROXYTYPE) {
+        const auto& capsule = static_cast<const btCapsuleShape&>(shape.shape);
+        half[capsule.getUpAxis()] = capsule.getHalfHeight();
+        round.radius = double(capsule.getRadius());
+    } else {
+        return false;
+    }
+    round.begin = from_bullet(shape.from * -half);
+    round.end = from_bullet(shape.from * half);
+    return true;
+}
+
+// Quick: returns whether two round shapes are farther apart than they can come nearer in the step.
+bool are_out_of_reach(const MovingShape& a, const MovingShape& b, double turning) {
+    constexpr double MARGIN = 0.001;  // [m]
+    Round of_a, of_b;
+    if (!is_round(a, of_a) || !is_round(b, of_b)) return false;
+    const double reach = of_a.radius + of_b.radius + (b.way - a.way).norm() + turning + MARGIN;
+    return nearest_of_segments(of_a.begin, of_a.end, of_b.begin, of_b.end).squared > reach * reach;
+}
+
 }  // namespace
 
 Vec3 side_of(const btConvexShape& a, const btTransform& at_a, const btConvexShape& b, const btTransform& at_b) {
@@ -63,6 +98,8 @@ std::optional<ShapeImpact> first_impact(const MovingShape& a, const MovingShape&
     constexpr double TOUCH = 2e-4;  // gap at which shapes count as touching; Bullet's is known no better [m]
     constexpr int MOST_STEPS = 64;  // shapes that slide past each other for so long count as touching
     const double turning = a.turn.norm() * reach_of(a.shape) + b.turn.norm() * reach_of(b.shape);
+    std::optional<ShapeImpact> impact;
+    if (are_out_of_reach(a, b, turning)) return impact;
     GapFinder finder(a.shape, b.shape);
     const auto gap_at = [&](double time) { return finder.find(a.at(time), b.at(time)); };
     // An upper bound of the speed along the normal [m a step].
@@ -72,7 +109,6 @@ std::optional<ShapeImpact> first_impact(const MovingShape& a, const MovingShape&
     const auto until = [&](double time, const ShapeGap& gap) {
         return approach(gap) > 0 ? time + gap.distance / approach(gap) : INFINITY;
     };
-    std::optional<ShapeImpact> impact;
     advance(TOUCH, MOST_STEPS, gap_at, until, [&](double time, const ShapeGap& gap) {
         // What touches and parts does not meet.
         if (approach(gap) > 0) impact = ShapeImpact{time, gap.normal, gap.on_b + gap.distance * gap.normal, gap.on_b};
