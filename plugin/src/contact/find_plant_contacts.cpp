@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "contact/agree_on_sides.hpp"
 #include "contact/remember_contacts.hpp"
@@ -97,24 +98,35 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     return contact;
 }
 
-// Keeps each plant's deepest contacts: they suffice where plants overlap completely, and each contact is coupled with
-// all others of its plants, so that cost grows with the square of their number. Returns whether others were dropped.
+// Keeps each plant's deepest contacts, in their order: they suffice where plants overlap completely, and each contact
+// is coupled with all others of its plants, so that cost grows with the square of their number. Returns whether others
+// were dropped.
 bool keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
     constexpr int MOST = 100;  // contacts per plant
-    const size_t all = contacts.size();
-    if (all <= MOST) return false;
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const PlantContact& a, const PlantContact& b) { return a.depth > b.depth; });
+    if (contacts.size() <= MOST) return false;
+    std::vector<size_t> by_depth(contacts.size());
+    std::iota(by_depth.begin(), by_depth.end(), size_t(0));
+    std::stable_sort(by_depth.begin(), by_depth.end(),
+                     [&](size_t a, size_t b) { return contacts[a].depth > contacts[b].depth; });
     std::vector<int> count(plant_count, 0);
-    const auto is_too_many = [&](const PlantContact& contact) {
-        int &first = count[size_t(contact.plants[0]->number)], &second = count[size_t(contact.plants[1]->number)];
-        if (first >= MOST || second >= MOST) return true;
+    std::vector<uint8_t> is_kept(contacts.size(), 0);
+    for (const size_t i : by_depth) {
+        int &first = count[size_t(contacts[i].plants[0]->number)],
+            &second = count[size_t(contacts[i].plants[1]->number)];
+        if (first >= MOST || second >= MOST) continue;
         first++;
         second++;
-        return false;
-    };
-    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_too_many), contacts.end());
-    return contacts.size() < all;
+        is_kept[i] = 1;
+    }
+    size_t kept = 0;
+    for (size_t i = 0; i < contacts.size(); i++) {
+        if (!is_kept[i]) continue;
+        if (kept < i) contacts[kept] = std::move(contacts[i]);
+        kept++;
+    }
+    const bool any_dropped = kept < contacts.size();
+    contacts.erase(contacts.begin() + std::ptrdiff_t(kept), contacts.end());
+    return any_dropped;
 }
 
 // Contacts of one island, and the time of the search [ms].
