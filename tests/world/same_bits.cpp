@@ -48,8 +48,8 @@ const Row ROWS[] = {
      0x7cd3482763adf12b, 0xd74093c5c3c91ccb},
     {"ball_on_rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, true, FROND_WIND_PROFILE_LOG, 0, 0x27cc98fffe95409e,
      0x4c3d74d72111e074},
-    {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0xfcc097a437965207,
-     0xe183a88d1d59a056},
+    {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0x1f289ae8bfb98c13,
+     0xf03f2663d111993d},
     {"field", "wheat/wheat.obj", FROND_MECHANICS_ROD, 9, 1.5, false, FROND_WIND_PROFILE_UNIFORM, 4, 0x7920f3d0cf22a4cd,
      0xd89fc2d4602468f5},
 };

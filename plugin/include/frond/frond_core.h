@@ -56,8 +56,9 @@ enum {
      * response kept them apart. Effect: they went only a part of the step's way, pins as well, so that nothing passed.
      * Remedy: shorter steps. */
     FROND_TROUBLE_HELD_BACK = 1 << 5,
-    /* Cause: a plant had more than 100 contacts with plants, as where cages were made in each other. Effect: its
-     * deepest 100 push, the others do not. Remedy: FROND_COLLISION_ORGANS, which touches at fewer places. */
+    /* Cause: a plant had more than 100 contacts with plants, as where cages were made in each other, or so much crossed
+     * within a step that no response could account for all of it. Effect: the deepest 100 contacts push, or those that
+     * meet first. Remedy: FROND_COLLISION_ORGANS, which touches at fewer places; shorter steps. */
     FROND_TROUBLE_CROWDED = 1 << 6,
     /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
      * there for the step. Remedy: have the function of frond_world_set_wind_field write every velocity. */

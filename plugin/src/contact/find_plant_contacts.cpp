@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 #include "contact/agree_on_sides.hpp"
 #include "contact/remember_contacts.hpp"
@@ -98,35 +97,25 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     return contact;
 }
 
-// Keeps each plant's deepest contacts, in their order: they suffice where plants overlap completely, and each contact
-// is coupled with all others of its plants, so that cost grows with the square of their number. Returns whether others
+// Keeps each plant's deepest contacts of an island: they suffice where plants overlap completely, and each contact is
+// coupled with all others of its plants, so that cost grows with the square of their number. Returns whether others
 // were dropped.
 bool keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
     constexpr int MOST = 100;  // contacts per plant
-    if (contacts.size() <= MOST) return false;
-    std::vector<size_t> by_depth(contacts.size());
-    std::iota(by_depth.begin(), by_depth.end(), size_t(0));
-    std::stable_sort(by_depth.begin(), by_depth.end(),
-                     [&](size_t a, size_t b) { return contacts[a].depth > contacts[b].depth; });
+    const size_t all = contacts.size();
+    if (all <= MOST) return false;
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [](const PlantContact& a, const PlantContact& b) { return a.depth > b.depth; });
     std::vector<int> count(plant_count, 0);
-    std::vector<uint8_t> is_kept(contacts.size(), 0);
-    for (const size_t i : by_depth) {
-        int &first = count[size_t(contacts[i].plants[0]->number)],
-            &second = count[size_t(contacts[i].plants[1]->number)];
-        if (first >= MOST || second >= MOST) continue;
+    const auto is_too_many = [&](const PlantContact& contact) {
+        int &first = count[size_t(contact.plants[0]->number)], &second = count[size_t(contact.plants[1]->number)];
+        if (first >= MOST || second >= MOST) return true;
         first++;
         second++;
-        is_kept[i] = 1;
-    }
-    size_t kept = 0;
-    for (size_t i = 0; i < contacts.size(); i++) {
-        if (!is_kept[i]) continue;
-        if (kept < i) contacts[kept] = std::move(contacts[i]);
-        kept++;
-    }
-    const bool any_dropped = kept < contacts.size();
-    contacts.erase(contacts.begin() + std::ptrdiff_t(kept), contacts.end());
-    return any_dropped;
+        return false;
+    };
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_too_many), contacts.end());
+    return contacts.size() < all;
 }
 
 // Contacts of one island, and the time of the search [ms].
@@ -332,13 +321,13 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     for (size_t i = 0; i < islands.size(); i++)
         for (size_t k = 0; k < islands[i].size(); k++)
             islands[i][k]->plant->step.is_watched = found[i].near[k] && !islands[i][k]->rest.asleep;
-    for (const Found& of : found) {
+    for (Found& of : found) {
+        if (keep_deepest(world.taking_part.size(), of.contacts)) world.report.trouble |= FROND_TROUBLE_CROWDED;
         contacts.insert(contacts.end(), of.contacts.begin(), of.contacts.end());
         world.profile.ms_broad += of.ms_broad;
         world.profile.ms_hash += of.ms_hash;
         world.profile.ms_narrow += of.ms_narrow;
     }
-    if (keep_deepest(world.taking_part.size(), contacts)) world.report.trouble |= FROND_TROUBLE_CROWDED;
     return contacts;
 }
 

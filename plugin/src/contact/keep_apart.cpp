@@ -117,6 +117,7 @@ void for_each_miss(World& world, double crossed, size_t most, const Answers* ans
         if (paths.empty()) continue;
         std::vector<Miss> misses = misses_of(memory, paths, 1, crossed, answers);
         if (misses.size() > most) {
+            world.report.trouble |= FROND_TROUBLE_CROWDED;
             std::stable_sort(misses.begin(), misses.end(),
                              [](const Miss& a, const Miss& b) { return a.impact.time < b.impact.time; });
             misses.erase(misses.begin() + std::ptrdiff_t(most), misses.end());

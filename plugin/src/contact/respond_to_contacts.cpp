@@ -272,9 +272,12 @@ void respond_again(World& world, const ResponseRow& response, double h, Waiting&
         to.contacts = contacts_of(island);
         to.couplings = couplings + squared(double(to.rows.size()));
     });
-    for (const size_t i : open)
+    for (const size_t i : open) {
+        const bool is_last = given[i].couplings > MOST_COUPLINGS;
+        if (is_last) world.report.trouble |= FROND_TROUBLE_CROWDED;
         for (const PlantBody* body : given[i].plants)
-            all.answers[size_t(body->number)] = given[i].couplings > MOST_COUPLINGS ? Answer::last : Answer::fresh;
+            all.answers[size_t(body->number)] = is_last ? Answer::last : Answer::fresh;
+    }
     all.given = std::move(given);
     std::fill(all.given_of.begin(), all.given_of.end(), -1);
     for (size_t i = 0; i < all.given.size(); i++)
