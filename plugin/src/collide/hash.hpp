@@ -2,6 +2,8 @@
 // always give the same pairs.
 #pragma once
 
+#include <cmath>
+
 #include "core/types.hpp"
 #include "frond/frond.h"
 
@@ -19,6 +21,8 @@ struct BoxSet {
         double lower[3], upper[3];  // [m]
         int group;
     };
+    // Returns the box around nothing.
+    static Bounds none() { return {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0}; }
     std::vector<Bounds> boxes;
 };
 

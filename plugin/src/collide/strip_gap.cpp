@@ -8,7 +8,7 @@
 namespace frond {
 
 BoxSet::Bounds box_of_way(const Strip& strip, const Vec3* before, const Vec3* after, double around) {
-    BoxSet::Bounds box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+    BoxSet::Bounds box = BoxSet::none();
     for (const Vec3* places : {before, after})
         for (const int corner : strip.corners) {
             const double* p = places[corner].data();

@@ -146,14 +146,13 @@ bool slides_over_joint(const World& world, const PlantBody& body, const SweptBod
 void add_passed_contacts(World& world, double h, const Answers& answers, Missed& missed) {
     std::vector<const PlantBody*> added;
     std::vector<Contact> contacts = world.contacts;
-    const auto stands = [&](const PlantBody& body, Answer as) { return answers[size_t(body.number)] == as; };
     for (const SweptBody& swept : world.swept) {
         const bool goes_otherwise =
             std::any_of(world.contacts.begin(), world.contacts.end(), [&](const Contact& contact) {
-                return contact.other == swept.object && stands(*contact.plant, Answer::fresh);
+                return contact.other == swept.object && stands(*contact.plant, answers, Answer::fresh);
             });
         const auto may_hit = [&](const PlantBody& body) {
-            return stands(body, Answer::fresh) || (goes_otherwise && stands(body, Answer::kept));
+            return stands(body, answers, Answer::fresh) || (goes_otherwise && stands(body, answers, Answer::kept));
         };
         find_hits_in_step(world, swept, h, may_hit, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), deeper = after - depth_before(hit);

@@ -65,10 +65,6 @@ struct Miss {
 // [-]: what impulses move, and what is moved to part the plants.
 constexpr double CROSSED = 1e-6, DEEP = NEAREST;
 
-bool stands(const PlantBody& body, const Answers& answers, Answer as) {
-    return answers[size_t(body.number)] == as;
-}
-
 // Finds pairs that come too near each other, nearer than `share` of what they may; if there are answers, only of those
 // that the last response moved, with others that may still move.
 std::vector<Miss> misses_of(PlantSearch& memory, const std::vector<StripPath>& paths, double share, double crossed,
@@ -188,17 +184,17 @@ Missed find_missed_contacts(World& world, double h, const Answers& answers) {
             missed.asked.push_back(contact.plant);
     missed.passed = missed.asked;
     add_passed_contacts(world, h, answers, missed);
-    const Missed of_plants = add_missed_contacts(world, &PlantContact::lacking, answers);
+    const Missed of_plants = add_missed_contacts(world, &PlantContact::lacking, &answers);
     missed.passed.insert(missed.passed.end(), of_plants.passed.begin(), of_plants.passed.end());
     missed.asked.insert(missed.asked.end(), of_plants.asked.begin(), of_plants.asked.end());
     return missed;
 }
 
-Missed add_missed_contacts(World& world, double PlantContact::*lacking, const Answers& answers) {
+Missed add_missed_contacts(World& world, double PlantContact::*lacking, const Answers* answers) {
     // Contacts that a response adds: those that meet later may then not do so.
     constexpr size_t MOST = 300;
     Missed missed;
-    for_each_miss(world, lacking == &PlantContact::lacking ? CROSSED : DEEP, MOST, &answers,
+    for_each_miss(world, lacking == &PlantContact::lacking ? CROSSED : DEEP, MOST, answers,
                   [&](const std::vector<StripPath>& paths, const Miss& miss) {
                       const bool is_asked = add_missed(paths, miss, lacking, world.plant_contacts);
                       for (const int of : {miss.pair.a, miss.pair.b}) {

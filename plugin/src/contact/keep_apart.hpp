@@ -11,6 +11,9 @@ inline namespace FROND_BULLET_PRECISION {
 // it is, and may then meet what moves otherwise now, or its island gets no more responses.
 enum class Answer : uint8_t { fresh, kept, last };
 using Answers = std::vector<Answer>;  // by the plants' numbers
+inline bool stands(const PlantBody& body, const Answers& answers, Answer as) {
+    return answers[size_t(body.number)] == as;
+}
 
 // Plants that something went through in spite of all contacts, or nearly, and those of whose islands the next response
 // is asked for more; some twice.
@@ -22,8 +25,9 @@ double least_miss(const PlantBody& body, int capsule);
 // Looks at the ways that watched plants went with the contacts that are known. Where strips, or bodies, went through
 // them, or nearly, it adds contacts or has those that are known ask for more.
 Missed find_missed_contacts(World& world, double h, const Answers& answers);
-// Does so where plants went through plants, or nearly. `lacking`: of what the contacts ask for more.
-Missed add_missed_contacts(World& world, double PlantContact::*lacking, const Answers& answers);
+// Does so where plants went through plants, or nearly. `lacking`: of what the contacts ask for more. Null: all plants
+// are looked at.
+Missed add_missed_contacts(World& world, double PlantContact::*lacking, const Answers* answers);
 // Reports plants that a kinematic body has come past, whatever was asked of their contacts.
 void tell_what_is_behind(World& world, double h);
 // Returns the plants that go through bodies that move fast, or, if asked, through each other, on their ways in the

@@ -63,14 +63,13 @@ void part_plants(World& world, double h, std::vector<TouchedPlant>& touched) {
     const auto take_back = [&] {
         for (PlantBody* body : world.taking_part) go_share(*body->plant, corrections[size_t(body->number)], 0);
     };
-    const Answers answers(world.taking_part.size(), Answer::fresh);
     bool by_plants = true;
     for (int round = 1;; round++) {
         const std::vector<ContactIsland> islands = find_contact_islands(world);
         run_jobs(world, islands.size(), [&](size_t i) { part(world, islands[i], h, touched, corrections); });
         const auto has_moved = [](const Correction& correction) { return correction.way.size() > 0; };
         if (std::none_of(corrections.begin(), corrections.end(), has_moved)) return;
-        const Missed missed = add_missed_contacts(world, &PlantContact::lacking_place, answers);
+        const Missed missed = add_missed_contacts(world, &PlantContact::lacking_place, nullptr);
         by_plants = !missed.passed.empty();
         if (!by_plants && world.swept.empty()) return;
         if (missed.asked.empty() || round == MOST) break;

@@ -223,19 +223,24 @@ struct Responses {
     // By the plants' numbers; `passed`: something goes through one as it is now, or nearly.
     Answers answers;
     std::vector<uint8_t> asked, passed;
-    std::vector<int> given_of;  // -1: none
-    explicit Responses(size_t plants)
-        : answers(plants, Answer::fresh), asked(plants, 0), passed(plants, 0), given_of(plants, -1) {}
+    explicit Responses(size_t plants) : answers(plants, Answer::fresh), asked(plants, 0), passed(plants, 0) {}
+    // Returns which of the answers is each plant's; -1: none.
+    std::vector<int> given_of() const {
+        std::vector<int> of(answers.size(), -1);
+        for (size_t i = 0; i < given.size(); i++)
+            for (const PlantBody* body : given[i].plants) of[size_t(body->number)] = int(i);
+        return of;
+    }
 };
 
 // Returns what the last response gave an island, if that still is the answer; null where contacts came, went or ask for
 // more.
-Given* standing_answer(Responses& all, const ContactIsland& island) {
-    const int before = all.given_of[size_t(island.plants[0]->number)];
+Given* standing_answer(Responses& all, const std::vector<int>& given_of, const ContactIsland& island) {
+    const int before = given_of[size_t(island.plants[0]->number)];
     if (before < 0) return nullptr;
     Given& given = all.given[size_t(before)];
     const auto differs = [&](const PlantBody* body) {
-        return all.given_of[size_t(body->number)] != before || all.asked[size_t(body->number)];
+        return given_of[size_t(body->number)] != before || all.asked[size_t(body->number)];
     };
     if (std::any_of(island.plants.begin(), island.plants.end(), differs)) return nullptr;
     return given.plants.size() == island.plants.size() && given.contacts == contacts_of(island) ? &given : nullptr;
@@ -244,11 +249,12 @@ Given* standing_answer(Responses& all, const ContactIsland& island) {
 // Answers the islands that have no standing answer.
 void respond_again(World& world, const ResponseRow& response, double h, Waiting& waiting, Responses& all) {
     const std::vector<ContactIsland> islands = find_contact_islands(world);
+    const std::vector<int> given_of = all.given_of();
     std::vector<Given> given(islands.size());
     std::vector<size_t> open;  // islands
     std::vector<uint8_t> stands(all.answers.size(), 0);
     for (size_t i = 0; i < islands.size(); i++) {
-        if (Given* standing = standing_answer(all, islands[i])) {
+        if (Given* standing = standing_answer(all, given_of, islands[i])) {
             given[i] = std::move(*standing);
             point_at(islands[i], given[i].rows);
             for (const PlantBody* body : given[i].plants) stands[size_t(body->number)] = 1;
@@ -256,12 +262,12 @@ void respond_again(World& world, const ResponseRow& response, double h, Waiting&
         }
         open.push_back(i);
         for (const PlantBody* body : islands[i].plants)
-            if (const int of = all.given_of[size_t(body->number)]; of >= 0)
+            if (const int of = given_of[size_t(body->number)]; of >= 0)
                 given[i].couplings = std::max(given[i].couplings, all.given[size_t(of)].couplings);
     }
     for (size_t i = 0; i < waiting.bodies.size(); i++) {
         const size_t number = size_t(waiting.bodies[i]->number);
-        if (all.given_of[number] >= 0 && !stands[number]) take_back(waiting, i);
+        if (given_of[number] >= 0 && !stands[number]) take_back(waiting, i);
     }
     run_jobs(world, open.size(), [&](size_t k) {
         const ContactIsland& island = islands[open[k]];
@@ -279,9 +285,6 @@ void respond_again(World& world, const ResponseRow& response, double h, Waiting&
             all.answers[size_t(body->number)] = is_last ? Answer::last : Answer::fresh;
     }
     all.given = std::move(given);
-    std::fill(all.given_of.begin(), all.given_of.end(), -1);
-    for (size_t i = 0; i < all.given.size(); i++)
-        for (const PlantBody* body : all.given[i].plants) all.given_of[size_t(body->number)] = int(i);
 }
 
 // Looks for what the contacts missed. Returns whether islands are to be answered again.

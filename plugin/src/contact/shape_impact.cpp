@@ -14,7 +14,7 @@
 #include <cmath>
 
 #include "collide/advance.hpp"
-#include "surface/triangle_distance.hpp"
+#include "collide/capsule.hpp"
 #include "world/convert.hpp"
 
 namespace frond {
@@ -56,36 +56,29 @@ struct GapFinder {
     }
 };
 
-// A sphere or capsule: all points within a radius of a segment.
-struct Round {
-    Vec3 begin, end;
-    double radius;  // [m]
-};
-
-// Returns whether a shape is round, and as what.
-bool is_round(const MovingShape& shape, Round& round) {
+// Returns whether a shape is a capsule or a sphere, and which one.
+bool is_capsule(const MovingShape& shape, Capsule& as) {
     btVector3 half(0, 0, 0);
     if (shape.shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE) {
-        round.radius = double(static_cast<const btSphereShape&>(shape.shape).getRadius());
+        as.radius = double(static_cast<const btSphereShape&>(shape.shape).getRadius());
     } else if (shape.shape.getShapeType() == CAPSULE_SHAPE_PROXYTYPE) {
         const auto& capsule = static_cast<const btCapsuleShape&>(shape.shape);
         half[capsule.getUpAxis()] = capsule.getHalfHeight();
-        round.radius = double(capsule.getRadius());
+        as.radius = double(capsule.getRadius());
     } else {
         return false;
     }
-    round.begin = from_bullet(shape.from * -half);
-    round.end = from_bullet(shape.from * half);
+    as.begin = from_bullet(shape.from * -half);
+    as.end = from_bullet(shape.from * half);
     return true;
 }
 
-// Quick: returns whether two round shapes are farther apart than they can come nearer in the step.
+// Quick: returns whether two capsules are farther apart than they can come nearer in the step.
 bool are_out_of_reach(const MovingShape& a, const MovingShape& b, double turning) {
     constexpr double MARGIN = 0.001;  // [m]
-    Round of_a, of_b;
-    if (!is_round(a, of_a) || !is_round(b, of_b)) return false;
-    const double reach = of_a.radius + of_b.radius + (b.way - a.way).norm() + turning + MARGIN;
-    return nearest_of_segments(of_a.begin, of_a.end, of_b.begin, of_b.end).squared > reach * reach;
+    Capsule of_a, of_b;
+    return is_capsule(a, of_a) && is_capsule(b, of_b) &&
+           gap_between(of_a, of_b).distance > (b.way - a.way).norm() + turning + MARGIN;
 }
 
 }  // namespace

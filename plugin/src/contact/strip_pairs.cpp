@@ -9,10 +9,6 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-BoxSet::Bounds no_box() {
-    return {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
-}
-
 void add_box(const BoxSet::Bounds& box, BoxSet::Bounds& to) {
     for (int k = 0; k < 3; k++) {
         to.lower[k] = std::min(to.lower[k], box.lower[k]);
@@ -36,7 +32,7 @@ StripBoxes gather_strips(const std::vector<StripPath>& paths, double margin) {
     StripBoxes all, wanted;
     BoxSet wholes;
     for (size_t b = 0; b < paths.size(); b++) {
-        wholes.boxes.push_back(no_box());
+        wholes.boxes.push_back(BoxSet::none());
         wholes.boxes[b].group = int(b);
         for (size_t s = 0; s < paths[b].body->touched().strips.size(); s++) {
             all.set.boxes.push_back(way_box(paths[b], int(s), margin));

@@ -28,9 +28,9 @@ void take_back(Plant& plant, const FreeStep& step) {
     plant.state.motion.history.valid = step.has_history;
     plant.step.is_sound = step.is_sound;
     plant.step.is_off_course = step.is_off_course;
-    const SolveReport spent = plant.report;
+    const SolveCost spent = plant.report;
     plant.report = step.report;
-    plant.report.take_cost(spent);
+    static_cast<SolveCost&>(plant.report) = spent;  // it was spent all the same
     plant.trouble = step.trouble;
     plant.step.push = nullptr;
     if (plant.step.workspace) plant.step.workspace->retract_from = step.retract_from;

@@ -217,9 +217,9 @@ static VecX move_by(Plant& plant, const VecX& dv, double h) {
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const Elements& elements = elements_of(plant);
     const VecX x = plant.state.motion.x;
-    const ContactPush& push = push_of(plant);
-    const double allowed =
-        (push.x.size() == x.size() && push.x == x ? push.elastic : row.energy(elements, x)) + parting_work(plant, h);
+    const ContactPush* push = plant.step.push.get();
+    const bool is_known = push && push->x.size() == x.size() && push->x == x;
+    const double allowed = (is_known ? push->elastic : row.energy(elements, x)) + parting_work(plant, h);
     for (double share = 1; share > LEAST; share /= 2) {
         add_correction(*plant.step.workspace, share * dv, plant.state.motion);
         if (is_calm_way(plant) && row.energy(elements, plant.state.motion.x) <= allowed)

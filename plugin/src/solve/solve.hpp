@@ -94,29 +94,24 @@ struct Loads {
     const std::vector<Guide>* guides = nullptr;  // borrowed; null: no node is held in part
 };
 
-struct SolveReport {
-    bool ok = false;  // false: the system could not be solved; motion is unchanged
-    bool converged = true;
-    int iterations = 0;   // iterations of the linear solver
-    int work = 0;         // cost of line searches and their directions, in evaluations of all forces
-    int inverted = 0;     // number of inverted tets
-    double residual = 0;  // relative, of the last linear solve
+struct SolveCost {
+    int iterations = 0;  // iterations of the linear solver
+    int work = 0;        // cost of line searches and their directions, in evaluations of all forces
     float ms_assembly = 0, ms_solve = 0;
-
     // Adds the cost of another solve.
-    void add_cost(const SolveReport& other) {
+    void add_cost(const SolveCost& other) {
         iterations += other.iterations;
         work += other.work;
         ms_assembly += other.ms_assembly;
         ms_solve += other.ms_solve;
     }
-    // Takes the cost of a solve that went on from this one.
-    void take_cost(const SolveReport& other) {
-        iterations = other.iterations;
-        work = other.work;
-        ms_assembly = other.ms_assembly;
-        ms_solve = other.ms_solve;
-    }
+};
+
+struct SolveReport : SolveCost {
+    bool ok = false;  // false: the system could not be solved; motion is unchanged
+    bool converged = true;
+    int inverted = 0;     // number of inverted tets
+    double residual = 0;  // relative, of the last linear solve
 };
 
 // Scratch space of one plant: matrix values, factor, vectors. Kept from step to step.

@@ -84,10 +84,11 @@ void fall_asleep(World& world, PlantBody& body) {
 }
 
 void compress_looked_at(World& world) {
-    // What came near it stays so for a while.
+    // What something came near in the last substep is likely to be looked at in the next one too.
     const auto is_done = [&](PlantBody* body) {
-        if (body->is_looked_at && body->rest.asleep && body->met_in == world.substep) return false;
-        if (body->is_looked_at && body->rest.asleep) compress(*body->plant, world.sleep_distance, true);
+        const bool is_open = body->is_looked_at && body->rest.asleep;
+        if (is_open && body->met_in == world.substep) return false;
+        if (is_open) compress(*body->plant, world.sleep_distance, true);
         body->is_looked_at = false;
         return true;
     };
