@@ -10,6 +10,7 @@
 
 #include "contact/coupled_rows.hpp"
 #include "core/assert.hpp"
+#include "world/link_loads.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -32,10 +33,10 @@ std::vector<size_t> rows_of_body(const std::vector<ContactRow>& rows, size_t fir
 // first share + second share^2.
 double share_within(double first, double second, double most) {
     if (first + second <= most || !(second > 0)) return 1;
-    return std::clamp((-first + std::sqrt(first * first + 4 * second * most)) / (2 * second), 0.0, 1.0);
+    return std::clamp((-first + std::sqrt(std::max(0.0, first * first + 4 * second * most))) / (2 * second), 0.0, 1.0);
 }
 
-double share_of_body(const std::vector<ContactRow>& rows, const std::vector<Vec3>& impulses,
+double share_of_body(const World& world, const std::vector<ContactRow>& rows, const std::vector<Vec3>& impulses,
                      const std::vector<size_t>& body, double h) {
     double first = 0, second = 0, taken = 0;
     for (const size_t i : body) {
@@ -51,18 +52,21 @@ double share_of_body(const std::vector<ContactRow>& rows, const std::vector<Vec3
                    parting = touch.wanted + std::max(0.0, touch.bias_velocity) * touch.normal;
         taken += plant.step.push->share * on_body.dot(velocity - parting);
     }
-    return share_within(first, second, std::max(0.0, taken));
+    // What a link has already, as the impulses that Bullet foresaw were taken back, is its motors'.
+    const btMultiBodyLinkCollider* link = rows[body[0]].contact_body.link;
+    const LinkLoads* loads = link ? find_link_loads(world, *link->m_multiBody) : nullptr;
+    return share_within(first, second, std::max(0.0, taken) - (loads ? loads->taken.energy : 0));
 }
 
 }  // namespace
 
-bool bound_gain(const std::vector<ContactRow>& rows, double h, std::vector<Vec3>& impulses) {
+bool bound_gain(const World& world, const std::vector<ContactRow>& rows, double h, std::vector<Vec3>& impulses) {
     bool any = false;
     std::vector<uint8_t> done(rows.size(), 0);
     for (size_t first = 0; first < rows.size(); first++) {
         if (done[first] || !is_movable(rows[first])) continue;
         const std::vector<size_t> body = rows_of_body(rows, first);
-        const double share = share_of_body(rows, impulses, body, h);
+        const double share = share_of_body(world, rows, impulses, body, h);
         any |= share < 1;
         for (const size_t i : body) {
             done[i] = 1;

@@ -12,8 +12,8 @@ inline namespace FROND_BULLET_PRECISION {
 namespace {
 
 void point_at(Contact& contact, ContactRow& row) {
+    row.contact = &contact;
     row.impulse = &contact.impulse;
-    row.pushed_on = &contact.pushed_on;
     row.work = &contact.work;
 }
 void point_at(PlantContact& contact, ContactRow& row) {
@@ -29,6 +29,11 @@ void point_at(Bond& bond, ContactRow& row) {
 double parting_speed(double depth, double slop, double h, double share, double fastest) {
     return std::min(share * std::max(0.0, depth - slop) / h, fastest);
 }
+
+// Overlaps with bodies are removed by velocities, as these have already moved: by so slow ones that nobody sees bodies
+// bounce that are deep in a stem after a fall, but faster from what is led, a kinematic body or a link with its motors.
+constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 0.1;  // [m], [-], [m/s]
+constexpr double FASTEST_LINK = 0.5, FASTEST_LED = 1;        // [m/s]
 
 // Returns how fast sides that meet within the step must part by restitution; 0 below a speed at which nothing bounces.
 double rebound_speed(const Contact& contact, const Touch& touch, double h) {
@@ -46,12 +51,8 @@ double mass_of(const PlantBody* body) {
     return node_mass_of(*body->plant->system).sum();
 }
 
-// Adds the row of a contact with a body. Bodies have already moved, so overlaps are removed by velocities: by so slow
-// ones that nobody sees bodies bounce that are deep in a stem after a fall, but faster from what is led, a kinematic
-// body or a link with its motors.
+// Adds the row of a contact with a body.
 void add_row(const World& world, Contact& contact, double h, std::vector<ContactRow>& rows) {
-    constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 0.1;  // [m], [-], [m/s]
-    constexpr double FASTEST_LINK = 0.5, FASTEST_LED = 1;        // [m/s]
     Plant& plant = *contact.plant->plant;
     ContactRow row;
     row.plants[0] = contact.plant;
@@ -187,6 +188,19 @@ std::vector<ContactRow> make_rows(const World& world, const ContactIsland& islan
     add(island.with_plants, [&](PlantContact& contact) { add_row(world, contact, h, rows); });
     add(island.bonds, [&](Bond& bond) { add_row(bond, h, rows); });
     return rows;
+}
+
+std::array<Vec3, 2> parts_of(const ContactRow& row, const Vec3& impulse) {
+    const Vec3 along = row.touch.normal.dot(impulse) * row.touch.normal;
+    return {along, impulse - along};
+}
+
+double way_on_of_link(double gap, double plant, double h) {
+    const double room = gap / h, slack = SLOP / h;
+    // Half of what is free, as the response leaves the link room for its way in the step after.
+    if (plant <= room) return 0.5 * (plant + room);
+    if (plant <= room + slack) return plant;
+    return std::max((plant + SHARE * (room + slack)) / (1 + SHARE), plant - FASTEST_LINK);
 }
 
 void point_at(const ContactIsland& island, std::vector<ContactRow>& rows) {

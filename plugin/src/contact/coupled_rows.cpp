@@ -1,6 +1,7 @@
 #include "contact/coupled_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "world/world.hpp"
@@ -79,6 +80,38 @@ const std::vector<Coupling>& CoupledRows::couple(int by) const {
             row.push_back({int(i), compliance_between(at.contact_body, _rows[i].contact_body)});
     if (row.empty()) row.push_back({by, Mat3::Zero()});
     return row;
+}
+
+static void add_give(const Foreseen::Row& to, double work, std::vector<Foreseen::Give>& gives) {
+    if (work == 0) return;
+    for (Foreseen::Give& give : gives)
+        if (give.to == to) {
+            give.work += work;
+            return;
+        }
+    gives.push_back({to, work});
+}
+
+std::array<std::vector<Foreseen::Give>, 2> CoupledRows::gives_to_links(size_t row,
+                                                                       const std::vector<Vec3>& impulses) const {
+    std::array<std::vector<Foreseen::Give>, 2> gives;
+    const ContactRow& at = _rows[row];
+    const std::array<Vec3, 2> own = parts_of(at, impulses[row]);
+    std::vector<Coupling> couplings;
+    couple_by_plants(int(row), couplings);
+    for (const Coupling& by : couplings) {
+        const ContactRow& other = _rows[size_t(by.other)];
+        if (!other.contact_body.link) continue;
+        const std::array<Vec3, 2> parts = parts_of(other, impulses[size_t(by.other)]);
+        const bool is_own = are_one_body(at, other);
+        for (size_t i = 0; i < 2; i++)
+            for (size_t k = 0; k < 2; k++) {
+                const double work = own[i].dot(by.block * parts[k]);
+                const ContactBody& to = is_own ? other.contact_body : at.contact_body;
+                add_give({to.link->m_link, (is_own ? k : i) == 1}, is_own ? work : std::abs(work), gives[i]);
+            }
+    }
+    return gives;
 }
 
 CouplingTable CoupledRows::table() const {

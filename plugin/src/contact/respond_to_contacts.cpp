@@ -9,6 +9,7 @@
 
 #include "contact/bound_gain.hpp"
 #include "contact/coupled_rows.hpp"
+#include "contact/foresee.hpp"
 #include "contact/keep_apart.hpp"
 #include "contact/part_plants.hpp"
 #include "contact/strip_search.hpp"
@@ -52,9 +53,10 @@ void go_on(const World& world, Given& given) {
         for (size_t k = 0; k < given.rows.size(); k++)
             if (are_one_body(at, given.rows[k]))
                 after -= compliance_between(at.contact_body, given.rows[k].contact_body) * given.impulses[k];
-        if (at.pushed_on) *at.pushed_on = after;
+        if (at.contact) at.contact->pushed_on = after;
         const bool is_slowed = pushes_back(world, *at.plants[0]);
-        const Vec3 mean = is_slowed ? Vec3(0.5 * (at.contact_body.velocity + after)) : at.contact_body.velocity;
+        const Vec3 moved = velocity_as_moved(world, at.contact_body);
+        const Vec3 mean = is_slowed ? Vec3(0.5 * (moved + after)) : moved;
         *at.work = given.impulses[i].dot(mean + at.touch.wanted);
     }
 }
@@ -178,6 +180,9 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
         for (const ContactRow& row : rows) impulses.push_back(*row.impulse);
         response.find(coupled.touches(), coupled.table(), settings, impulses);
         again = stop_asking(island, coupled, impulses, h);
+        for (size_t i = 0; i < rows.size(); i++)
+            if (rows[i].contact_body.link && !impulses[i].isZero(0))
+                rows[i].gives = coupled.gives_to_links(i, impulses);
     }
     go_on(world, given);
     give_to_plants(island, given);
@@ -327,10 +332,11 @@ void respond_to_contacts(World& world, double h) {
     if (std::any_of(all.passed.begin(), all.passed.end(), [](uint8_t passed) { return passed != 0; }))
         held = hold_back_what_passes(world, h);
     for (Given& of : all.given) {
-        if (bound_gain(of.rows, h, of.impulses)) go_on(world, of);
+        if (bound_gain(world, of.rows, h, of.impulses)) go_on(world, of);
         take_back_from_rewound(world, of);
     }
     tell_what_is_behind(world, h);
+    for (const Given& of : all.given) foresee(world, of.rows, h);
     part_plants(world, h, waiting.touched);
     for (Given& of : all.given)
         for (btRigidBody* body : give_to_bodies(world, of)) give_gravity(world.gravity_ahead, *body, h);

@@ -162,6 +162,18 @@ void for_each_child(PlantBody& body, const Box& box, const std::function<void(in
     if (tree && tree->m_root) tree->collideTV(tree->m_root, btDbvtVolume::FromMM(local.lower, local.upper), take_leaf);
 }
 
+double far_for(const btCollisionObject& object) {
+    const bool is_led = object.isKinematicObject() || btMultiBodyLinkCollider::upcast(&object);
+    return is_led ? 0.001 : 0.005;
+}
+
+// Returns the displacement of a segment of that radius and a shape up to which Bullet's own detection sees them meet
+// [m].
+static double slow_for(const btCollisionObject& object, double radius) {
+    constexpr double SLOW = 0.5;  // over the radius [-]
+    return btMultiBodyLinkCollider::upcast(&object) ? far_for(object) : SLOW * radius;
+}
+
 // Calls `take` for the pieces of a plant that may come near an object's shapes.
 static void for_each_meeting(PlantBody& body, const PlantMotion& of_plant, const btCollisionObject& object,
                              const ObjectMotion& of_object,
@@ -173,11 +185,10 @@ static void for_each_meeting(PlantBody& body, const PlantMotion& of_plant, const
         Box box = box_of(shape.shape, {shape.from, shape.way, shape.turn});
         box.widen(of_plant.farthest);
         for_each_child(body, box, [&](int child, int capsule) {
-            constexpr double SLOW = 0.5;  // displacement that Bullet's own detection sees, over the radius [-]
             if (is_apart(body, capsule, object)) return;
             const MovingShape piece = moving_piece(body, of_plant, child, capsule);
             const double turned = shape.turn.norm() + piece.turn.norm();
-            if ((shape.way - piece.way).norm() + turned < SLOW * radius_of(body, capsule)) return;
+            if ((shape.way - piece.way).norm() + turned < slow_for(object, radius_of(body, capsule))) return;
             take(capsule, piece, shape);
         });
     });

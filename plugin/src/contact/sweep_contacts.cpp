@@ -107,12 +107,6 @@ const PlantMotion& motion_in(Search& search, const PlantBody& body) {
     return *motion;
 }
 
-// Returns the displacement in a step from which on something is swept: less is seen where it ends. What lies on leaves
-// moves by less, and comes to rest better by Bullet's own contacts [m].
-double far_for(const btCollisionObject& object) {
-    return object.isKinematicObject() ? 0.001 : 0.005;
-}
-
 // Returns the plants that an object may meet within its step and the one before.
 std::vector<PlantBody*> plants_near(Search& search, const btCollisionObject& object, const ObjectMotion& motion,
                                     const ObjectMotion& past) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/foresee.hpp"
 #include "contact/respond_to_contacts.hpp"
 #include "core/assert.hpp"
 #include "core/timer.hpp"
@@ -12,6 +13,7 @@
 #include "step/touch.hpp"
 #include "world/detection.hpp"
 #include "world/fragments.hpp"
+#include "world/link_loads.hpp"
 #include "world/robot.hpp"
 
 namespace frond {
@@ -94,6 +96,7 @@ void take_step(World& world, btCollisionWorld& collision_world, double h) {
     if (world.ledger) count_calls(world);
     call_roll(world);
     carry_what_came_off(world, h);
+    take_back_from_links(world);
     find_touches(world, h);
     call_roll(world);
     note_touches(world);
@@ -117,6 +120,7 @@ void take_step(World& world, btCollisionWorld& collision_world, double h) {
     note_touching(world);
     if (world.sleep_distance > 0) put_to_sleep(world);
     compress_looked_at(world);
+    lend_link_loads(world);
     limit_motors(world, h);
     world.time += h;
     world.profile.ms_step = step_timer.ms();

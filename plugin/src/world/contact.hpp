@@ -20,6 +20,30 @@ struct Shortfall {
     bool ask_for(double now);
 };
 
+// A link's contact as it is foreseen for Bullet's next step, by its impulse along the normal and that of its friction.
+struct Foreseen {
+    // A row of Bullet's solver: all impulses of a link's contacts along their normals, or across.
+    struct Row {
+        int link;
+        bool is_friction;
+        bool operator==(const Row& other) const { return link == other.link && is_friction == other.is_friction; }
+    };
+    // Work of an impulse on plants as these give way to the impulses of a row.
+    struct Give {
+        Row to;
+        double work;  // [J]
+    };
+    struct Part {
+        Vec3 impulse = Vec3::Zero();  // on the plant [N s]
+        double work = 0;              // of the impulse, where the link goes on as it may [J]
+        std::vector<Give> gives;
+    };
+    std::array<Part, 2> parts;  // along the normal, and across it
+    Vec3 place = Vec3::Zero();  // on the link, in its frame [m]
+    double most_friction = 0;   // [N s]
+    bool is_foreseen() const { return !parts[0].impulse.isZero(0); }
+};
+
 struct Contact {
     PlantBody* plant;
     int capsule;
@@ -35,6 +59,7 @@ struct Contact {
     Vec3 impulse = Vec3::Zero();    // impulse on the plant, once it is known [N s]
     Vec3 pushed_on = Vec3::Zero();  // velocity of the other body there, once it is pushed [m/s]
     double work = 0;                // of the body on the plant, once it is known [J]
+    Foreseen foreseen;              // for the next step
     bool may_part = true;           // from an overlap, as far as no energy comes from it
     bool is_inside = false;         // the plant's point is on a segment's round end, within another one
 };

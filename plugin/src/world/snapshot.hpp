@@ -12,6 +12,7 @@ struct SavedContact {
     int plant, capsule, other;
     double along, across, gap, friction;
     Vec3 on_plant, on_other, normal, impulse;
+    Foreseen foreseen;
 };
 struct SavedPlantContact {
     std::array<int, 2> plants;

@@ -8,9 +8,19 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
+static void visit(Archive& a, Foreseen::Give& give) {
+    a(give.to.link), a(give.to.is_friction), a(give.work);
+}
+
+static void visit_foreseen(Archive& a, Foreseen& foreseen) {
+    for (Foreseen::Part& part : foreseen.parts) a(part.impulse), a(part.work), a(part.gives);
+    a(foreseen.place), a(foreseen.most_friction);
+}
+
 static void visit(Archive& a, SavedContact& c) {
     a(c.plant), a(c.capsule), a(c.other), a(c.along), a(c.across), a(c.gap), a(c.friction);
     a(c.on_plant), a(c.on_other), a(c.normal), a(c.impulse);
+    visit_foreseen(a, c.foreseen);
 }
 
 static void visit_side(Archive& a, ContactSide& side) {

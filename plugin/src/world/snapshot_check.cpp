@@ -93,6 +93,13 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
         for (const Vec3& v : {c.on_plant, c.on_other, c.normal, c.impulse}) check_numbers(v, "contacts");
         check_numbers(std::array{c.along, c.across, c.gap, c.friction}, "contacts");
         check_surface(c.normal, c.friction, "contacts");
+        check_numbers(c.foreseen.place, "contacts");
+        check_numbers(std::array{c.foreseen.most_friction}, "contacts");
+        for (const Foreseen::Part& part : c.foreseen.parts) {
+            check_numbers(part.impulse, "contacts");
+            check_numbers(std::array{part.work}, "contacts");
+            for (const Foreseen::Give& give : part.gives) check_numbers(std::array{give.work}, "contacts");
+        }
     }
     for (const SavedPlantContact& saved : touches.with_plants) {
         const PlantContact& c = saved.contact;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "plant/pins.hpp"
+#include "world/link_loads.hpp"
 #include "world/snapshot.hpp"
 
 namespace frond {
@@ -39,6 +40,7 @@ void put_touches(const World& world, const SavedTouches& saved, std::vector<Cont
         contact.gap = s.gap;
         contact.friction = s.friction;
         contact.impulse = s.impulse;
+        contact.foreseen = s.foreseen;
         with_bodies.push_back(contact);
     }
     for (const SavedPlantContact& s : saved.with_plants) {
@@ -181,6 +183,7 @@ void put_snapshot(World& world, Snapshot snapshot) {
     for (const int other : snapshot.others_before) world.others_before.push_back(object_at(world, other));
     std::sort(world.others_before.begin(), world.others_before.end(), std::less<>());
     put_touches(world, snapshot.touches, world.contacts, world.plant_contacts);
+    lend_link_loads(world);
     find_contacts_anew(world);
     world.events.list.clear();
     world.events.touching.clear();

@@ -35,7 +35,7 @@ SavedTouches take_touches(const World& world, const std::vector<Contact>& with_b
         const int other = place_of(world, c.other);
         if (other < 0) continue;
         touches.with_bodies.push_back({c.plant->index, c.capsule, other, c.along, c.across, c.gap, c.friction,
-                                       c.on_plant, c.on_other, c.normal, c.impulse});
+                                       c.on_plant, c.on_other, c.normal, c.impulse, c.foreseen});
     }
     for (const PlantContact& c : with_plants)
         if (is_by_the_same(c)) touches.with_plants.push_back({{c.plants[0]->index, c.plants[1]->index}, c});

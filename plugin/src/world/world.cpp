@@ -10,6 +10,7 @@
 #include "world/convert.hpp"
 #include "world/detection.hpp"
 #include "world/fragments.hpp"
+#include "world/link_loads.hpp"
 #include "world/own_bullet.hpp"
 #include "world/robot.hpp"
 
@@ -51,6 +52,7 @@ World::~World() {
         while (!bodies.empty()) remove_plant(*this, bodies.back().get());
         while (!robots.empty()) remove_robot(*this, robots.back().get());
         while (!rigids.empty()) remove_rigid(*this, rigids.back().get());
+        remove_link_loads(*this);
         bullet->removeAction(this);
     }
     std::lock_guard<std::mutex> lock(attached_mutex);

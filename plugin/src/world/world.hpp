@@ -15,6 +15,7 @@
 #include "world/events.hpp"
 #include "world/gravity_ahead.hpp"
 #include "world/ledger.hpp"
+#include "world/lent.hpp"
 #include "world/near_children.hpp"
 #include "world/plant_contact.hpp"
 #include "world/rigid.hpp"
@@ -23,6 +24,7 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
+class LinkLoads;
 struct OwnBullet;
 struct Robot;
 
@@ -71,6 +73,7 @@ struct World final : btActionInterface {
     bool is_gone = false;  // the Bullet world was deleted
     Release release;
     std::vector<Contact> contacts;                             // contacts of the last substep, with bodies
+    std::vector<Loan<LinkLoads, World>> link_loads;            // in Bullet's world, one per multi-body that is pushed
     GravityAhead gravity_ahead;                                // gravity given in advance to the bodies of those
     std::vector<PlantContact> plant_contacts;                  // contacts of plants with each other and themselves
     std::vector<std::unique_ptr<PlantSearch>> plant_searches;  // one per island of plants that may touch

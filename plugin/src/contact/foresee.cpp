@@ -1,0 +1,59 @@
+// In: rows of links whose impulses and whose plants' ways are known. Out: what the next step of Bullet is to foresee.
+#include "contact/foresee.hpp"
+
+#include <algorithm>
+
+#include "contact/find_contacts.hpp"
+#include "world/convert.hpp"
+#include "world/link_loads.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+void take_back_from_links(World& world) {
+    btAlignedObjectArray<btScalar> r;
+    btAlignedObjectArray<btVector3> v;
+    for (const auto& loads : world.link_loads) {
+        btMultiBody& body = *loads->body();
+        const std::vector<btScalar> given = loads->take_given();
+        loads->taken = {std::vector<btScalar>(given.size(), 0), 0};
+        if (given.empty()) continue;
+        std::vector<btScalar>& changes = loads->taken.velocities;
+        take_present_inertia(body);
+        body.calcAccelerationDeltasMultiDof(given.data(), changes.data(), r, v);
+        for (size_t k = 0; k < given.size(); k++) {
+            loads->taken.energy += double(given[k]) * (0.5 * double(changes[k]) - double(body.getVelocityVector()[k]));
+            changes[k] = -changes[k];
+        }
+        body.applyDeltaVeeMultiDof(changes.data(), 1);
+    }
+}
+
+Vec3 velocity_as_moved(const World& world, const ContactBody& at) {
+    const LinkLoads* loads = at.link ? find_link_loads(world, *at.link->m_multiBody) : nullptr;
+    Vec3 velocity = at.velocity;
+    for (size_t k = 0; loads && k < loads->taken.velocities.size(); k++)
+        for (int axis = 0; axis < 3; axis++)
+            velocity[axis] -= double(at.jacobian[size_t(axis)][k]) * double(loads->taken.velocities[k]);
+    return velocity;
+}
+
+void foresee(const World& world, const std::vector<ContactRow>& rows, double h) {
+    for (const ContactRow& row : rows) {
+        if (!row.contact_body.link || !pushes_back(world, *row.plants[0])) continue;
+        const Vec3& normal = row.touch.normal;
+        const std::array<Vec3, 2> impulses = parts_of(row, *row.impulse);
+        if (!(impulses[0].dot(normal) > 0)) continue;
+        const Vec3 plant = way_of_touch(*row.plants[0]->plant, row.touches[0]) / h;
+        const double along = normal.dot(plant), on = way_on_of_link(row.contact->gap + h * along, along, h);
+        Foreseen& foreseen = row.contact->foreseen;
+        for (size_t i = 0; i < 2; i++)
+            foreseen.parts[i] = {impulses[i], impulses[i].dot(plant + (on - along) * normal), row.gives[i]};
+        foreseen.most_friction = row.touch.friction * impulses[0].norm();
+        foreseen.place =
+            from_bullet(row.contact->other->getWorldTransform().inverse() * to_bullet(row.contact->on_other));
+    }
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
