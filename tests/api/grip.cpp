@@ -114,6 +114,50 @@ TEST_P(Gripper, HoldsAFruit) {
     frond_model_destroy(model);
 }
 
+// A carriage of a third of its weight carries a fruit that is bonded to it up by 10 cm, at every step.
+TEST(Robot, CarriesWhatIsBondedToIt) {
+    for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+        const UrdfFolder folder;
+        const std::string inertial =
+            "<inertial><mass value=\"0.1\"/><inertia ixx=\"1e-4\" ixy=\"0\" ixz=\"0\" iyy=\"1e-4\" iyz=\"0\" "
+            "izz=\"1e-4\"/></inertial>";
+        const RobotWorld lift(folder.write(
+            "lift.urdf",
+            urdf_robot(
+                urdf_link("rail", inertial) +
+                urdf_link("carriage",
+                          inertial + "<collision><geometry><sphere radius=\"0.01\"/></geometry></collision>") +
+                "<joint name=\"lift\" type=\"prismatic\"><parent link=\"rail\"/><child link=\"carriage\"/>"
+                "<origin xyz=\"0.05 0 0.5\"/><axis xyz=\"0 0 1\"/><limit lower=\"0\" upper=\"0.2\" effort=\"50\" "
+                "velocity=\"0.2\"/></joint>")));
+        const frond_model model = make_fruit();
+        frond_plant_def def = frond_default_plant_def();
+        def.mechanics = FROND_MECHANICS_ROD;
+        def.root_height = -1;
+        def.position = {0, 0.375, 0};
+        frond_plant fruit = {};
+        ASSERT_EQ(frond_plant_create(lift.world, model, &def, &fruit), FROND_OK) << frond_last_error();
+        for (const double height : {0.4, 0.6}) {
+            frond_bond bond = {};
+            ASSERT_EQ(frond_robot_bond(fruit, {0.02, height, 0}, lift.robot, lift.link("carriage"), &bond), FROND_OK)
+                << frond_last_error();
+        }
+        ASSERT_EQ(frond_robot_drive_to(lift.robot, lift.link("carriage"), 0.1, 0.2, 0), FROND_OK);
+        std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(fruit)));
+        const auto below = [&] {
+            EXPECT_EQ(frond_plant_get_capsules(fruit, capsules.data(), int(capsules.size())), FROND_OK);
+            return lift.state("carriage").position.y - capsules[0].begin.y;
+        };
+        const double before = below();
+        for (int i = 0; i < int(2 / step); i++) ASSERT_EQ(frond_world_step(lift.world, step), FROND_OK);
+        const frond_link_state carriage = lift.state("carriage");
+        EXPECT_NEAR(carriage.joint_position, 0.1, 0.001) << step;
+        EXPECT_NEAR(carriage.motor_force, 0.4 * 9.81, 0.01) << step;
+        EXPECT_NEAR(below(), before, 0.0005) << step;
+        frond_model_destroy(model);
+    }
+}
+
 // Returns by how much the axis of a segment is before that of a bar which comes along `way` [m]; infinite where the two
 // do not pass each other.
 double before(const frond_capsule& segment, const Vec& from, const Vec& to, const Vec& way) {

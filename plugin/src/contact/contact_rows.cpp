@@ -13,6 +13,7 @@ namespace {
 
 void point_at(Contact& contact, ContactRow& row) {
     row.contact = &contact;
+    row.foreseen = &contact.foreseen;
     row.impulse = &contact.impulse;
     row.work = &contact.work;
 }
@@ -20,6 +21,7 @@ void point_at(PlantContact& contact, ContactRow& row) {
     row.impulse = &contact.impulse;
 }
 void point_at(Bond& bond, ContactRow& row) {
+    row.foreseen = &bond.foreseen;
     row.impulse = &bond.impulse;
     row.work = &bond.work;
 }
@@ -146,9 +148,11 @@ void add_correction_row(const Contact& contact, double h, std::vector<ContactRow
     rows.push_back(std::move(row));
 }
 
-// Adds the row of a bond, which closes half of its gap per step.
+constexpr double BOND_SHARE = 0.5;  // of its gap that a bond closes in a step [-]
+
 void add_row(Bond& bond, double h, std::vector<ContactRow>& rows) {
-    constexpr double SHARE = 0.5, FASTEST = 10;  // [m/s]
+    constexpr double FASTEST = 10;  // [m/s]
+    bond.foreseen = {};
     if (bond.plant->rest.asleep) return;
     bond.impulse.setZero();
     bond.work = 0;
@@ -165,7 +169,7 @@ void add_row(Bond& bond, double h, std::vector<ContactRow>& rows) {
     row.touch.is_bond = true;
     row.touch.normal = Vec3::UnitY();
     row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
-    row.touch.wanted = SHARE / h * (place - plant.to_world(attachment_place(attachment, plant.step.x_good)));
+    row.touch.wanted = BOND_SHARE / h * (place - plant.to_world(attachment_place(attachment, plant.step.x_good)));
     if (row.touch.wanted.norm() > FASTEST) row.touch.wanted *= FASTEST / row.touch.wanted.norm();
     row.touch.bias_velocity = row.touch.friction = 0;
     point_at(bond, row);
@@ -190,9 +194,22 @@ std::vector<ContactRow> make_rows(const World& world, const ContactIsland& islan
     return rows;
 }
 
-std::array<Vec3, 2> parts_of(const ContactRow& row, const Vec3& impulse) {
-    const Vec3 along = row.touch.normal.dot(impulse) * row.touch.normal;
-    return {along, impulse - along};
+std::vector<Foreseen::Part> parts_of(const ContactRow& row, const Vec3& impulse) {
+    std::vector<Foreseen::Part> parts;
+    const auto add = [&](Foreseen::Kind kind, const Vec3& of) {
+        if (!of.isZero(0)) parts.push_back({kind, of, 0, {}});
+    };
+    const auto add_axes = [&](Foreseen::Kind first, const Vec3& of) {
+        for (int axis = 0; axis < 3; axis++) add(Foreseen::Kind(int(first) + axis), Vec3(of[axis] * Vec3::Unit(axis)));
+    };
+    if (row.touch.is_bond) {
+        add_axes(Foreseen::Kind::bond_x, impulse);
+    } else {
+        const Vec3 along = row.touch.normal.dot(impulse) * row.touch.normal;
+        add(Foreseen::Kind::normal, along);
+        add_axes(Foreseen::Kind::friction_x, impulse - along);
+    }
+    return parts;
 }
 
 double way_on_of_link(double gap, double plant, double h) {
@@ -201,6 +218,12 @@ double way_on_of_link(double gap, double plant, double h) {
     if (plant <= room) return 0.5 * (plant + room);
     if (plant <= room + slack) return plant;
     return std::max((plant + SHARE * (room + slack)) / (1 + SHARE), plant - FASTEST_LINK);
+}
+
+Vec3 way_on_of_link(const Vec3& wanted, const Vec3& now, const Vec3& plant) {
+    // The gap that is left, over the step, and which grows by the link's own way.
+    const Vec3 gap = wanted / BOND_SHARE - now;
+    return (plant - BOND_SHARE * gap) / (1 + BOND_SHARE);
 }
 
 void point_at(const ContactIsland& island, std::vector<ContactRow>& rows) {

@@ -16,15 +16,16 @@ struct ContactRow {
     std::array<size_t, 2> places = {};  // their indices among the touches of that plant
     ContactBody contact_body;           // the other side, if that is no plant
     Touch touch;
-    size_t number = 0;                                 // among its island's contacts with bodies, with plants, or bonds
-    Contact* contact = nullptr;                        // null unless it is one with a body
-    Vec3* impulse;                                     // the contact's own
-    double* work = nullptr;                            // likewise; null where no body is on the other side
-    std::array<std::vector<Foreseen::Give>, 2> gives;  // of a link's impulse, by its parts
+    size_t number = 0;                  // among its island's contacts with bodies, with plants, or bonds
+    Contact* contact = nullptr;         // null unless it is one with a body
+    Vec3* impulse;                      // the contact's own
+    double* work = nullptr;             // likewise; null where no body is on the other side
+    Foreseen* foreseen = nullptr;       // likewise
+    std::vector<Foreseen::Part> parts;  // of a link's impulse, without their work
 };
 
-// Returns the part of an impulse along a row's normal, and that across it.
-std::array<Vec3, 2> parts_of(const ContactRow& row, const Vec3& impulse);
+// Returns the parts of an impulse, without what it does: along a row's normal and by friction, or of a bond.
+std::vector<Foreseen::Part> parts_of(const ContactRow& row, const Vec3& impulse);
 // Makes the rows of an island for a step of h [s]; wakes sleeping bodies that plants push.
 std::vector<ContactRow> make_rows(const World& world, const ContactIsland& island, double h);
 // Makes the rows of an island for a correction of positions: of plants, and of bodies, which only bound it; none if no
@@ -33,6 +34,8 @@ std::vector<ContactRow> make_correction_rows(const World& world, const ContactIs
 // Returns the velocity along the normal with which a link may go on towards a plant in the next step of h [s], from a
 // gap [m] and while the plant goes on with that velocity, so that the response will not have to slow it down [m/s].
 double way_on_of_link(double gap, double plant, double h);
+// Likewise for a bond. `wanted`: what it asked for in this step, to close its gap; `now`: the plant's velocity in it.
+Vec3 way_on_of_link(const Vec3& wanted, const Vec3& now, const Vec3& plant);
 // Points an island's rows at its contacts where these are now, of the same number and in the same order.
 void point_at(const ContactIsland& island, std::vector<ContactRow>& rows);
 // Returns whether no row would push anything: all are apart and come no nearer in the step than they may. Then no

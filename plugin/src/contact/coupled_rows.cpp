@@ -82,7 +82,7 @@ const std::vector<Coupling>& CoupledRows::couple(int by) const {
     return row;
 }
 
-static void add_give(const Foreseen::Row& to, double work, std::vector<Foreseen::Give>& gives) {
+static void add_give(const Foreseen::Load& to, double work, std::vector<Foreseen::Give>& gives) {
     if (work == 0) return;
     for (Foreseen::Give& give : gives)
         if (give.to == to) {
@@ -92,26 +92,25 @@ static void add_give(const Foreseen::Row& to, double work, std::vector<Foreseen:
     gives.push_back({to, work});
 }
 
-std::array<std::vector<Foreseen::Give>, 2> CoupledRows::gives_to_links(size_t row,
-                                                                       const std::vector<Vec3>& impulses) const {
-    std::array<std::vector<Foreseen::Give>, 2> gives;
+std::vector<Foreseen::Part> CoupledRows::parts_with_gives(size_t row, const std::vector<Vec3>& impulses) const {
     const ContactRow& at = _rows[row];
-    const std::array<Vec3, 2> own = parts_of(at, impulses[row]);
+    std::vector<Foreseen::Part> parts = parts_of(at, impulses[row]);
     std::vector<Coupling> couplings;
     couple_by_plants(int(row), couplings);
     for (const Coupling& by : couplings) {
         const ContactRow& other = _rows[size_t(by.other)];
         if (!other.contact_body.link) continue;
-        const std::array<Vec3, 2> parts = parts_of(other, impulses[size_t(by.other)]);
         const bool is_own = are_one_body(at, other);
-        for (size_t i = 0; i < 2; i++)
-            for (size_t k = 0; k < 2; k++) {
-                const double work = own[i].dot(by.block * parts[k]);
-                const ContactBody& to = is_own ? other.contact_body : at.contact_body;
-                add_give({to.link->m_link, (is_own ? k : i) == 1}, is_own ? work : std::abs(work), gives[i]);
+        for (Foreseen::Part& part : parts)
+            for (const Foreseen::Part& of_other : parts_of(other, impulses[size_t(by.other)])) {
+                const double work = part.impulse.dot(by.block * of_other.impulse);
+                if (is_own)
+                    add_give({other.contact_body.link->m_link, of_other.kind}, work, part.gives);
+                else
+                    add_give({at.contact_body.link->m_link, part.kind}, std::abs(work), part.gives);
             }
     }
-    return gives;
+    return parts;
 }
 
 CouplingTable CoupledRows::table() const {

@@ -21,10 +21,10 @@ public:
     // One island of all rows, whose couplings are computed on request. It refers to this.
     CouplingTable table() const;
 
-    // Returns the work of the parts of a link's impulse on plants as these give way to the impulses of each link of the
-    // body. Of other bodies' links any proportion may push, so that the link's own counts for more, as in mass
+    // Returns the parts of a link's impulse, with their work on plants as these give way to the loads of all links of
+    // the body. Of other bodies' links any proportion may push, so that the link's own counts for more, as in mass
     // splitting (Tonge and others 2012).
-    std::array<std::vector<Foreseen::Give>, 2> gives_to_links(size_t row, const std::vector<Vec3>& impulses) const;
+    std::vector<Foreseen::Part> parts_with_gives(size_t row, const std::vector<Vec3>& impulses) const;
 
 private:
     // Sides of rows that are one plant's: as a row's first plant, or with the opposite sign as its second.

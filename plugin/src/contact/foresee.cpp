@@ -40,18 +40,24 @@ Vec3 velocity_as_moved(const World& world, const ContactBody& at) {
 
 void foresee(const World& world, const std::vector<ContactRow>& rows, double h) {
     for (const ContactRow& row : rows) {
-        if (!row.contact_body.link || !pushes_back(world, *row.plants[0])) continue;
-        const Vec3& normal = row.touch.normal;
-        const std::array<Vec3, 2> impulses = parts_of(row, *row.impulse);
-        if (!(impulses[0].dot(normal) > 0)) continue;
-        const Vec3 plant = way_of_touch(*row.plants[0]->plant, row.touches[0]) / h;
-        const double along = normal.dot(plant), on = way_on_of_link(row.contact->gap + h * along, along, h);
-        Foreseen& foreseen = row.contact->foreseen;
-        for (size_t i = 0; i < 2; i++)
-            foreseen.parts[i] = {impulses[i], impulses[i].dot(plant + (on - along) * normal), row.gives[i]};
-        foreseen.most_friction = row.touch.friction * impulses[0].norm();
-        foreseen.place =
-            from_bullet(row.contact->other->getWorldTransform().inverse() * to_bullet(row.contact->on_other));
+        if (!row.contact_body.link || row.parts.empty() || !pushes_back(world, *row.plants[0])) continue;
+        // How the plant went on in this step, and will in the next one if all that acts on it stays as it was.
+        const Vec3 now = way_of_touch(*row.plants[0]->plant, row.touches[0]) / h,
+                   plant = now + change_of_velocity(*row.plants[0]->plant, row.touches[0]);
+        Vec3 on = plant;
+        if (row.contact) {
+            const Vec3& normal = row.touch.normal;
+            if (!(row.impulse->dot(normal) > 0)) continue;
+            const double along = normal.dot(plant), gap = row.contact->gap + h * normal.dot(now);
+            on += (way_on_of_link(gap, along, h) - along) * normal;
+            row.foreseen->most_friction = row.touch.friction * row.impulse->dot(normal);
+        } else {
+            on = way_on_of_link(row.touch.wanted, now, plant);
+        }
+        row.foreseen->parts = row.parts;
+        for (Foreseen::Part& part : row.foreseen->parts) part.work = part.impulse.dot(on);
+        row.foreseen->place =
+            from_bullet(row.contact_body.object->getWorldTransform().inverse() * to_bullet(row.contact_body.point));
     }
 }
 

@@ -182,7 +182,7 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
         again = stop_asking(island, coupled, impulses, h);
         for (size_t i = 0; i < rows.size(); i++)
             if (rows[i].contact_body.link && !impulses[i].isZero(0))
-                rows[i].gives = coupled.gives_to_links(i, impulses);
+                rows[i].parts = coupled.parts_with_gives(i, impulses);
     }
     go_on(world, given);
     give_to_plants(island, given);

@@ -55,6 +55,12 @@ Vec3 way_of_touch(const Plant& plant, const PlantTouch& touch) {
                              attachment_place(touch.attachment, plant.step.x_good));
 }
 
+Vec3 change_of_velocity(const Plant& plant, const PlantTouch& touch) {
+    const VecX &before = plant.step.v_good, &now = plant.state.motion.v;
+    if (before.size() != now.size()) return Vec3::Zero();
+    return plant.rotation * attachment_velocity(touch.attachment, plant.step.x_good, now - before);
+}
+
 bool find_compliance(Plant& plant, const Attachment& attachment, NodeCompliance& compliance) {
     FROND_ASSERT(plant.step.workspace);
     const Mat3 to_model = plant.rotation.conjugate().toRotationMatrix();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "plant/touch.hpp"
+#include "world/foreseen.hpp"
 #include "world/plant_body.hpp"
 
 namespace frond {
@@ -17,6 +18,7 @@ struct Bond {
     Vec3 impulse = Vec3::Zero();  // impulse on the plant in the last substep [N s]
     double work = 0;              // of the body on the plant in that substep [J]
     double length = 1;            // length of that substep [s]
+    Foreseen foreseen;            // for the next one, if the body is a link
     uint64_t handle = 0;          // handle in the C API
 };
 

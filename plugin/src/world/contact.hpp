@@ -2,6 +2,7 @@
 // to touch it within the step.
 #pragma once
 
+#include "world/foreseen.hpp"
 #include "world/plant_body.hpp"
 
 namespace frond {
@@ -18,30 +19,6 @@ struct Shortfall {
     // Asks for what `now` is left [m], by as much more as the last response did less than it was asked for. Returns
     // whether that is of use.
     bool ask_for(double now);
-};
-
-// A link's contact as it is foreseen for Bullet's next step, by its impulse along the normal and that of its friction.
-struct Foreseen {
-    // A row of Bullet's solver: all impulses of a link's contacts along their normals, or across.
-    struct Row {
-        int link;
-        bool is_friction;
-        bool operator==(const Row& other) const { return link == other.link && is_friction == other.is_friction; }
-    };
-    // Work of an impulse on plants as these give way to the impulses of a row.
-    struct Give {
-        Row to;
-        double work;  // [J]
-    };
-    struct Part {
-        Vec3 impulse = Vec3::Zero();  // on the plant [N s]
-        double work = 0;              // of the impulse, where the link goes on as it may [J]
-        std::vector<Give> gives;
-    };
-    std::array<Part, 2> parts;  // along the normal, and across it
-    Vec3 place = Vec3::Zero();  // on the link, in its frame [m]
-    double most_friction = 0;   // [N s]
-    bool is_foreseen() const { return !parts[0].impulse.isZero(0); }
 };
 
 struct Contact {

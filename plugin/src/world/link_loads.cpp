@@ -23,11 +23,16 @@ double dot(const Generalised& a, const btScalar* b) {
     return sum;
 }
 
-// Returns the body's link that a contact pushes as it is foreseen; null if it pushes none, or one that is gone.
-const btMultiBodyLinkCollider* link_of(const World& world, const Contact& contact, const btMultiBody& body) {
-    if (!contact.foreseen.is_foreseen() || !is_in(*world.bullet, contact.other)) return nullptr;
-    const btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(contact.other);
-    return link && link->m_multiBody == &body ? link : nullptr;
+// Calls `take` for all that is foreseen of the links of a multi-body, but for links that are gone.
+template <class Take>
+void for_each_foreseen(const World& world, const btMultiBody& body, const Take& take) {
+    const auto take_one = [&](const Foreseen& foreseen, const btCollisionObject* object) {
+        if (foreseen.parts.empty() || !is_in(*world.bullet, object)) return;
+        const btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(object);
+        if (link && link->m_multiBody == &body) take(foreseen, *link);
+    };
+    for (const Contact& contact : world.contacts) take_one(contact.foreseen, contact.other);
+    for (const Bond& bond : world.bonds) take_one(bond.foreseen, bond.body);
 }
 
 // A boxed linear complementarity problem: compliance x = wanted + w, where x is at its least and w is not below zero,
@@ -56,9 +61,9 @@ Eigen::VectorXd solve(const Complementarity& problem) {
 
 }  // namespace
 
-// What plants do to a link along the normals, or by friction: all these impulses are scaled alike.
+// All impulses of a kind on a link, which are scaled alike.
 struct LinkLoads::Load {
-    Foreseen::Row row;
+    Foreseen::Load of;
     double impulse = 0;         // sum of the sizes of impulses [N s]
     double work = 0;            // as in Foreseen [J]
     double most_friction = 0;   // likewise [N s]
@@ -78,47 +83,37 @@ LinkLoads::LinkLoads(World& world, btMultiBody& body)
     : btMultiBodyConstraint(&body, nullptr, -1, -1, 0, true, MULTIBODY_CONSTRAINT_POINT_TO_POINT), _world(world) {}
 
 int LinkLoads::getIslandIdA() const {
-    for (const Contact& contact : _world.contacts)
-        if (const btMultiBodyLinkCollider* link = link_of(_world, contact, *m_bodyA)) return link->getIslandTag();
-    return -1;
+    int id = -1;
+    for_each_foreseen(_world, *m_bodyA, [&](const Foreseen&, const btMultiBodyLinkCollider& link) {
+        id = std::max(id, link.getIslandTag());
+    });
+    return id;
 }
 
-static size_t number_of(const Foreseen::Row& row, const std::vector<Foreseen::Row>& rows) {
-    return size_t(std::find(rows.begin(), rows.end(), row) - rows.begin());
-}
-
-// Sums the contacts up.
 std::vector<LinkLoads::Load> LinkLoads::find_loads() const {
     std::vector<Load> loads;
     btAlignedObjectArray<btScalar> r;
     btAlignedObjectArray<btVector3> v;
     btAlignedObjectArray<btMatrix3x3> m;
     Generalised jacobian(size_t(m_bodyA->getNumDofs()) + 6);
-    const auto load_of = [&](const Foreseen::Row& row) -> Load& {
+    const auto find = [&](const Foreseen::Load& of) -> Load& {
         for (Load& load : loads)
-            if (load.row == row) return load;
-        loads.emplace_back();
-        loads.back().row = row;
-        loads.back().of_unit.resize(jacobian.size(), 0);
-        return loads.back();
+            if (load.of == of) return load;
+        return loads.emplace_back(Load{of, 0, 0, 0, Generalised(jacobian.size(), 0), {}});
     };
-    for (const Contact& contact : _world.contacts) {
-        const btMultiBodyLinkCollider* link = link_of(_world, contact, *m_bodyA);
-        if (!link) continue;
-        const Foreseen& foreseen = contact.foreseen;
-        for (size_t i = 0; i < 2; i++) {
-            const double size = foreseen.parts[i].impulse.norm();
+    for_each_foreseen(_world, *m_bodyA, [&](const Foreseen& foreseen, const btMultiBodyLinkCollider& link) {
+        for (const Foreseen::Part& part : foreseen.parts) {
+            const double size = part.impulse.norm();
             if (!(size > 0)) continue;
-            Load& load = load_of({link->m_link, i == 1});
-            m_bodyA->fillContactJacobianMultiDof(link->m_link, link->getWorldTransform() * to_bullet(foreseen.place),
-                                                 to_bullet(-foreseen.parts[i].impulse / size), jacobian.data(), r, v,
-                                                 m);
+            Load& load = find({link.m_link, part.kind});
+            m_bodyA->fillContactJacobianMultiDof(link.m_link, link.getWorldTransform() * to_bullet(foreseen.place),
+                                                 to_bullet(-part.impulse / size), jacobian.data(), r, v, m);
             load.impulse += size;
-            load.work += foreseen.parts[i].work;
+            load.work += part.work;
             load.most_friction += foreseen.most_friction;
             for (size_t k = 0; k < jacobian.size(); k++) load.of_unit[k] += btScalar(size) * jacobian[k];
         }
-    }
+    });
     for (Load& load : loads) {
         for (btScalar& of : load.of_unit) of /= btScalar(load.impulse);
         load.response.resize(load.of_unit.size());
@@ -129,19 +124,19 @@ std::vector<LinkLoads::Load> LinkLoads::find_loads() const {
 
 // Returns how plants give way to the loads, as velocities at each by a unit impulse of each [1/kg].
 Eigen::MatrixXd LinkLoads::find_compliance(const std::vector<Load>& loads) const {
-    std::vector<Foreseen::Row> rows;
-    for (const Load& load : loads) rows.push_back(load.row);
+    const auto number_of = [&](const Foreseen::Load& of) {
+        const auto is_it = [&](const Load& load) { return load.of == of; };
+        return size_t(std::find_if(loads.begin(), loads.end(), is_it) - loads.begin());
+    };
     Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(Eigen::Index(loads.size()), Eigen::Index(loads.size()));
-    for (const Contact& contact : _world.contacts) {
-        const btMultiBodyLinkCollider* link = link_of(_world, contact, *m_bodyA);
-        if (!link) continue;
-        for (size_t i = 0; i < 2; i++)
-            for (const Foreseen::Give& give : contact.foreseen.parts[i].gives) {
-                const size_t at = number_of({link->m_link, i == 1}, rows), by = number_of(give.to, rows);
-                if (at == rows.size() || by == rows.size()) continue;  // its contacts are gone
+    for_each_foreseen(_world, *m_bodyA, [&](const Foreseen& foreseen, const btMultiBodyLinkCollider& link) {
+        for (const Foreseen::Part& part : foreseen.parts)
+            for (const Foreseen::Give& give : part.gives) {
+                const size_t at = number_of({link.m_link, part.kind}), by = number_of(give.to);
+                if (at == loads.size() || by == loads.size()) continue;  // what pushed is gone
                 compliance(Eigen::Index(at), Eigen::Index(by)) += give.work / (loads[at].impulse * loads[by].impulse);
             }
-    }
+    });
     return 0.5 * (compliance + compliance.transpose());
 }
 
@@ -209,12 +204,10 @@ void LinkLoads::createConstraintRows(btMultiBodyConstraintArray&, btMultiBodyJac
         const Load& load = loads[size_t(i)];
         impulses[i] = load.impulse;
         problem.wanted[i] = -load.work / load.impulse - dot(load.of_unit, m_bodyA->getVelocityVector());
-        problem.least[i] = -load.impulse;
-        problem.most[i] = BT_LARGE_FLOAT;
-        if (!load.row.is_friction) continue;
-        const double most = std::max(load.most_friction, load.impulse);
-        problem.least[i] -= most;
+        const double most =
+            Foreseen::is_friction(load.of.kind) ? std::max(load.most_friction, load.impulse) : BT_LARGE_FLOAT;
         problem.most[i] = most - load.impulse;
+        problem.least[i] = (load.of.kind == Foreseen::Kind::normal ? 0 : -most) - load.impulse;
     }
     for (Eigen::Index i = load_count; i < count; i++) {
         const Limits& limit = limits[size_t(i - load_count)];
@@ -257,9 +250,12 @@ void lend_link_loads(World& world) {
     auto* bullet = dynamic_cast<btMultiBodyDynamicsWorld*>(world.bullet);
     if (!bullet) return;
     std::vector<btMultiBody*> bodies;  // that are pushed
-    for (const Contact& contact : world.contacts)
-        if (btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(contact.other))
-            if (contact.foreseen.is_foreseen()) bodies.push_back(link->m_multiBody);
+    const auto add = [&](const Foreseen& foreseen, btCollisionObject* object) {
+        btMultiBodyLinkCollider* link = foreseen.parts.empty() ? nullptr : btMultiBodyLinkCollider::upcast(object);
+        if (link) bodies.push_back(link->m_multiBody);
+    };
+    for (const Contact& contact : world.contacts) add(contact.foreseen, contact.other);
+    for (const Bond& bond : world.bonds) add(bond.foreseen, bond.body);
     std::sort(bodies.begin(), bodies.end());
     bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
     for (size_t i = world.link_loads.size(); i-- > 0;) {
@@ -285,6 +281,7 @@ const LinkLoads* find_link_loads(const World& world, const btMultiBody& body) {
 
 void remove_link_loads(World& world) {
     for (Contact& contact : world.contacts) contact.foreseen = {};
+    for (Bond& bond : world.bonds) bond.foreseen = {};
     lend_link_loads(world);
 }
 

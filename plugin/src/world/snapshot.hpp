@@ -85,6 +85,7 @@ struct SavedBond {
     int vertex;
     Vec3 impulse;
     double length;
+    Foreseen foreseen;
 };
 
 struct Snapshot {

@@ -9,12 +9,15 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 static void visit(Archive& a, Foreseen::Give& give) {
-    a(give.to.link), a(give.to.is_friction), a(give.work);
+    a(give.to.link), a.one_of(give.to.kind, Foreseen::KIND_COUNT), a(give.work);
+}
+
+static void visit(Archive& a, Foreseen::Part& part) {
+    a.one_of(part.kind, Foreseen::KIND_COUNT), a(part.impulse), a(part.work), a(part.gives);
 }
 
 static void visit_foreseen(Archive& a, Foreseen& foreseen) {
-    for (Foreseen::Part& part : foreseen.parts) a(part.impulse), a(part.work), a(part.gives);
-    a(foreseen.place), a(foreseen.most_friction);
+    a(foreseen.parts), a(foreseen.place), a(foreseen.most_friction);
 }
 
 static void visit(Archive& a, SavedContact& c) {
@@ -111,6 +114,7 @@ static void visit(Archive& a, SavedAhead& ahead) {
 
 static void visit(Archive& a, SavedBond& bond) {
     a(bond.vertex), a(bond.impulse), a(bond.length);
+    visit_foreseen(a, bond.foreseen);
 }
 
 static void visit_all(Archive& a, Snapshot& s) {

@@ -83,6 +83,16 @@ size_t count_staying(const World& world, const std::vector<const Rigid*>& going)
     return size_t(count);
 }
 
+void check_foreseen(const Foreseen& foreseen, const char* what) {
+    check_numbers(foreseen.place, what);
+    check_numbers(std::array{foreseen.most_friction}, what);
+    for (const Foreseen::Part& part : foreseen.parts) {
+        check_numbers(part.impulse, what);
+        check_numbers(std::array{part.work}, what);
+        for (const Foreseen::Give& give : part.gives) check_numbers(std::array{give.work}, what);
+    }
+}
+
 void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& touches, size_t object_count) {
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     for (const SavedContact& c : touches.with_bodies) {
@@ -93,13 +103,7 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
         for (const Vec3& v : {c.on_plant, c.on_other, c.normal, c.impulse}) check_numbers(v, "contacts");
         check_numbers(std::array{c.along, c.across, c.gap, c.friction}, "contacts");
         check_surface(c.normal, c.friction, "contacts");
-        check_numbers(c.foreseen.place, "contacts");
-        check_numbers(std::array{c.foreseen.most_friction}, "contacts");
-        for (const Foreseen::Part& part : c.foreseen.parts) {
-            check_numbers(part.impulse, "contacts");
-            check_numbers(std::array{part.work}, "contacts");
-            for (const Foreseen::Give& give : part.gives) check_numbers(std::array{give.work}, "contacts");
-        }
+        check_foreseen(c.foreseen, "contacts");
     }
     for (const SavedPlantContact& saved : touches.with_plants) {
         const PlantContact& c = saved.contact;
@@ -273,6 +277,7 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
             fail(FROND_RESULT_BAD_ARGUMENT,
                  "a bond holds a different point from that in the snapshot; make the same bonds in the same order");
         check_numbers(saved.impulse, "bonds");
+        check_foreseen(saved.foreseen, "bonds");
         if (!(saved.length > 0 && saved.length <= MOST)) damaged("bonds");
     }
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();

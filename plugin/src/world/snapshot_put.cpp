@@ -173,6 +173,7 @@ void put_snapshot(World& world, Snapshot snapshot) {
     size_t i = 0;
     for (Bond& bond : world.bonds) {
         bond.impulse = snapshot.bonds[i].impulse;
+        bond.foreseen = snapshot.bonds[i].foreseen;
         bond.length = snapshot.bonds[i++].length;
     }
     for (const SavedAhead& ahead : snapshot.ahead)

@@ -165,7 +165,8 @@ Snapshot take_snapshot(World& world) {
     for (const auto& body : world.bodies) snapshot.plants.push_back(take_plant(world, look_at(*body)));
     compress_looked_at(world);
     for (const auto& rigid : world.rigids) snapshot.rigids.push_back(take_rigid(*rigid));
-    for (const Bond& bond : world.bonds) snapshot.bonds.push_back({bond.vertex, bond.impulse, bond.length});
+    for (const Bond& bond : world.bonds)
+        snapshot.bonds.push_back({bond.vertex, bond.impulse, bond.length, bond.foreseen});
     for (const GravityAhead::Held& held : world.gravity_ahead.bodies) {
         const int body = place_of(world, held.body);
         if (body >= 0) snapshot.ahead.push_back({body, numbers_of(held.force)});
