@@ -72,9 +72,8 @@ int main(int argc, char** argv) {
     char path[1024];
 
     /* With rods, a fruit comes off its stalk. They take their masses from the cage's cells, which fruit and stalk
-     * share, so these are small. Gripping fingers need short steps. */
+     * share, so these are small. */
     model_def.cage_size = 0.1;
-    world_def.max_substep = 1.0 / 240;
     check(frond_world_create(&world_def, &world));
     snprintf(path, sizeof path, "%s/cucumber/cucumber.obj", models);
     check(frond_model_load(path, &model_def, &cucumber));
