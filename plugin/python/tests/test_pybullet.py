@@ -90,6 +90,39 @@ def test_the_root_holds_what_a_robot_pushes(client, corn):
     assert total == pytest.approx(-pushed)
 
 
+GRIPPER = """<?xml version="1.0"?><robot name="gripper"><link name="palm"><inertial><mass value="1"/>
+<inertia ixx="1e-2" ixy="0" ixz="0" iyy="1e-2" iyz="0" izz="1e-2"/></inertial></link>""" + "".join(f"""
+<link name="{name}"><inertial><mass value="0.05"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/>
+</inertial><collision><geometry><box size="0.02 0.06 0.1"/></geometry></collision></link><joint name="to_{name}"
+type="prismatic"><parent link="palm"/><child link="{name}"/><origin xyz="{-0.04 * way} 0 0"/><axis xyz="{way} 0 0"/>
+<limit lower="0" upper="0.039" effort="20" velocity="0.2"/></joint>""" for name, way in (("left", 1), ("right", -1))) + (
+    "</robot>")
+
+
+@pytest.mark.parametrize("step", [1 / 240, 1 / 60])
+def test_light_fingers_hold_a_fruit(client, tmp_path, step):
+    """Of 0.05 kg, with motors of 20 N: they sink into it by less than a millimetre and press it with that force."""
+    (tmp_path / "gripper.urdf").write_text(GRIPPER)
+    fruit = frond.Model.from_stems([{"parent": -1, "begin": (0, 0, 0), "end": (0, 0.25, 0), "radius_begin": 0.02,
+                                     "radius_end": 0.02}])
+    p.setTimeStep(step)
+    p.setPhysicsEngineParameter(numSolverIterations=100)
+    world = frond.pybullet.attach(client)
+    world.add_plant(fruit, mechanics="rod", root_height=-1, position=(0, 0, 0.375))
+    gripper = p.loadURDF(str(tmp_path / "gripper.urdf"), (0, 0, 0.5), useFixedBase=True)
+    for finger in range(2):
+        p.changeDynamics(gripper, finger, lateralFriction=1)
+        p.setJointMotorControl2(gripper, finger, p.VELOCITY_CONTROL, targetVelocity=0.2, force=20)
+    for i in range(int(3 / step)):
+        p.stepSimulation()
+        if i * step < 2:
+            continue
+        left, right = (p.getJointState(gripper, finger)[0] for finger in range(2))
+        assert 0.038 < 0.06 - left - right < 0.0402
+        assert world.wrench_on(gripper, 0).force[0] == pytest.approx(-20, rel=0.02)
+        assert world.wrench_on(gripper, 1).force[0] == pytest.approx(20, rel=0.02)
+
+
 def test_plants_are_held_by_links(client, corn):
     world = frond.pybullet.attach(client)
     plant = world.add_plant(corn, mechanics="rod")
