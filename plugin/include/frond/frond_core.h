@@ -621,8 +621,8 @@ FROND_API frond_result frond_plant_get_detail(frond_plant plant, frond_detail* o
  * bending from pulling; in a cage a capsule that is pulled breaks at half its strength or more. The capsule and all
  * that grows beyond it become a rigid body with their mass and momentum. It is drawn in the plant's surface, its nodes,
  * capsules and vertices are reported where it is, grabs on it pull it, forces and pins on its nodes end. It collides
- * with other bodies and plants but not with its own plant, which no longer takes part in FROND_EFFECT_PLANT_CONTACT and
- * FROND_EFFECT_SELF_CONTACT. Bonds on it let go. Triangles across the break stay in the list, without area. */
+ * with other bodies and plants, and with what is left of its own plant once it has been free of that. Bonds on it let
+ * go. Triangles across the break stay in the list, without area. */
 typedef struct frond_fragment {
     frond_rigid rigid; /* owned by the plant and destroyed with it; frond_rigid_destroy ignores it */
     int capsule;       /* the one at which it came off */

@@ -10,6 +10,9 @@ namespace frond {
 // The axis of a region: the present ends of its capsule of the chain [m].
 using Axis = std::array<Vec3, 2>;
 
+// The radius of a cover around nothing.
+constexpr double NOTHING = -1;
+
 // Returns a capsule around all nodes of each region, and so around its tets: the chain's own capsules are fitted to the
 // surface, narrower than blades and than the cage. `axes`: one per region, in the frame of the places.
 std::vector<Capsule> cover_pieces(const Collider& collider, const Vec3* places, const std::vector<Axis>& axes);

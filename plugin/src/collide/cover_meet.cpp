@@ -8,7 +8,8 @@
 namespace frond {
 
 static BoxSet::Bounds box_of(const Capsule& capsule, double margin) {
-    BoxSet::Bounds box;
+    BoxSet::Bounds box = BoxSet::none();
+    if (capsule.radius == NOTHING) return box;
     for (int k = 0; k < 3; ++k) {
         box.lower[k] = std::min(capsule.begin[k], capsule.end[k]) - capsule.radius - margin;
         box.upper[k] = std::max(capsule.begin[k], capsule.end[k]) + capsule.radius + margin;

@@ -9,6 +9,7 @@
 #include "contact/strip_search.hpp"
 #include "core/timer.hpp"
 #include "plant/pins.hpp"
+#include "world/fragments.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -64,6 +65,8 @@ void place_shape(const PlantBody& body, size_t number, double h, PlantSearch::Sh
         shape.places[n] = turn * point(now, int(n)) + plant.position + shape.ways[n];
     }
     shape.covers = cover_pieces(collider, shape.places.data(), shape.axes);
+    for (size_t i = 0; i < shape.covers.size(); i++)
+        if (has_come_off(plant, int(i))) shape.covers[i].radius = NOTHING;
 }
 
 double friction_of(const PlantBody& body, int organ) {
@@ -286,6 +289,8 @@ void take_attachments(PlantContact& contact) {
 }
 
 bool may_touch(const World& world, const PlantContact& contact) {
+    for (size_t k = 0; k < 2; k++)
+        if (has_come_off(*contact.plants[k]->plant, contact.sides[k].piece)) return false;
     if (contact.plants[0] == contact.plants[1])
         return touches_others(world, *contact.plants[0], FROND_EFFECT_SELF_CONTACT);
     return touches_others(world, *contact.plants[0], FROND_EFFECT_PLANT_CONTACT) &&

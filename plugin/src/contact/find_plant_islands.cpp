@@ -11,8 +11,7 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 bool touches_others(const World& world, const PlantBody& body, frond_effects effect) {
-    return world.effects & body.plant->input.effects & effect && !body.capsules().empty() &&
-           body.plant->state.fragments.empty();
+    return world.effects & body.plant->input.effects & effect && !body.capsules().empty();
 }
 
 namespace {

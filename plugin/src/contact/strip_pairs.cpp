@@ -3,6 +3,7 @@
 
 #include "collide/sweep.hpp"
 #include "contact/strip_search.hpp"
+#include "world/fragments.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -35,6 +36,7 @@ StripBoxes gather_strips(const std::vector<StripPath>& paths, double margin) {
         wholes.boxes.push_back(BoxSet::none());
         wholes.boxes[b].group = int(b);
         for (size_t s = 0; s < paths[b].body->touched().strips.size(); s++) {
+            if (has_come_off(*paths[b].body->plant, paths[b].strip(int(s)).piece)) continue;
             all.set.boxes.push_back(way_box(paths[b], int(s), margin));
             all.set.boxes.back().group = int(b);
             all.strips.push_back({int(b), int(s)});

@@ -1,12 +1,13 @@
 // In: plants that broke. Out: rigid bodies for their fragments, and the fragments' places.
 //
 // The body is made of the capsules that came off, with the mass, momentum and angular momentum that the nodes had.
-// Bullet moves it, and it collides with plants and other bodies as any other, but not with the plant that it grew on:
-// their overlap would tear them apart.
+// Bullet moves it, and it collides with plants and other bodies as any other; with the capsules of its own plant in
+// which it was when it came off once it has left them.
 #include "world/fragments.hpp"
 
 #include <algorithm>
 
+#include "collide/capsule.hpp"
 #include "world/convert.hpp"
 #include "world/plant_shape.hpp"
 #include "world/world.hpp"
@@ -42,6 +43,24 @@ void add_capsules(const PlantBody& body, const Fragment& fragment, const btTrans
     rigid.shape = std::move(compound);
 }
 
+// Returns whether a fragment is in what is left of its plant, or touches it, blades by their plates.
+bool is_in_plant(const PlantBody& body, const Fragment& fragment) {
+    constexpr double TOUCH = 0.001;  // [m]
+    const Plant& plant = *body.plant;
+    std::vector<Capsule> left, fallen;
+    for (size_t i = 0; i < body.capsules().size(); i++) {
+        const Fragment* of = fragment_of_chain_node(plant, size_t(plant.model->capsules[i][1]));
+        if (of && of != &fragment) continue;
+        const auto [begin, end] = capsule_ends(plant, i);
+        const double radius = std::max(double(body.capsules()[i]->getRadius()), body.hull->flats[i].half_width);
+        (of ? fallen : left).push_back({begin, end, radius});
+    }
+    return std::any_of(left.begin(), left.end(), [&](const Capsule& a) {
+        return std::any_of(fallen.begin(), fallen.end(),
+                           [&](const Capsule& b) { return gap_between(a, b).distance < TOUCH; });
+    });
+}
+
 double friction_of(const Model& model, int chain_node) {
     const int organ = model.chain.nodes[size_t(chain_node)].organ;
     return organ >= 0 ? model.organs[size_t(organ)].material.friction : 0;
@@ -74,6 +93,11 @@ Rigid* add_fragment(World& world, PlantBody& body, const Fragment& fragment) {
 
 }  // namespace
 
+bool has_come_off(const Plant& plant, int capsule) {
+    return !plant.state.fragments.empty() &&
+           fragment_of_chain_node(plant, size_t(plant.model->capsules[size_t(capsule)][1]));
+}
+
 void break_off(World& world, PlantBody& body, int chain_node) {
     const Fragment& fragment = break_off(*body.plant, chain_node);
     body.fragment_bodies.push_back(add_fragment(world, body, fragment));
@@ -92,7 +116,7 @@ int break_overloaded(World& world, PlantBody& body) {
 
 void carry_fragments(PlantBody& body) {
     for (size_t k = 0; k < body.fragment_bodies.size(); k++) {
-        const Rigid& rigid = *body.fragment_bodies[k];
+        Rigid& rigid = *body.fragment_bodies[k];
         const btTransform& now = rigid.body->getWorldTransform();
         const Mat3 turn = matrix_from_bullet(now.getBasis());
         Fragment& fragment = body.plant->state.fragments[k];
@@ -101,6 +125,7 @@ void carry_fragments(PlantBody& body) {
         fragment.shift = turn * rigid.grown_shift + fragment.centre;
         fragment.velocity = from_bullet(rigid.body->getLinearVelocity());
         fragment.angular_velocity = from_bullet(rigid.body->getAngularVelocity());
+        if (!rigid.has_left) rigid.has_left = !is_in_plant(body, fragment);
     }
 }
 
@@ -124,10 +149,9 @@ void pull_fragments(PlantBody& body, double h) {
 
 bool is_apart(const PlantBody& body, int capsule, const btCollisionObject& other) {
     if (body.fragment_bodies.empty()) return false;
-    const Plant& plant = *body.plant;
-    if (fragment_of_chain_node(plant, size_t(plant.model->capsules[size_t(capsule)][1]))) return true;
+    if (has_come_off(*body.plant, capsule)) return true;
     return std::any_of(body.fragment_bodies.begin(), body.fragment_bodies.end(),
-                       [&](const Rigid* fragment) { return fragment->body.get() == &other; });
+                       [&](const Rigid* fragment) { return fragment->body.get() == &other && !fragment->has_left; });
 }
 
 void remove_fragments(World& world, PlantBody& body) {

@@ -10,11 +10,14 @@ inline namespace FROND_BULLET_PRECISION {
 void break_off(World& world, PlantBody& body, int chain_node);
 // Breaks off a capsule that is strained beyond its strength, one per substep. Returns how many came off.
 int break_overloaded(World& world, PlantBody& body);
+// Returns whether a capsule has come off with a fragment.
+bool has_come_off(const Plant& plant, int capsule);
 // Moves the plant's fragments to where their bodies are.
 void carry_fragments(PlantBody& body);
 // Applies the user's grabs on fragments.
 void pull_fragments(PlantBody& body, double h);
-// Returns whether a capsule and a body do not collide, because either belongs to a fragment of the plant.
+// Returns whether a capsule and a body do not collide: the capsule came off, or the body did and has not yet left the
+// plant.
 bool is_apart(const PlantBody& body, int capsule, const btCollisionObject& other);
 // Removes the bodies of a plant's fragments.
 void remove_fragments(World& world, PlantBody& body);

@@ -27,6 +27,7 @@ struct Rigid {
     PlantBody* grown_on = nullptr;
     Mat3 grown_turn = Mat3::Identity();
     Vec3 grown_shift = Vec3::Zero();
+    bool has_left = false;  // the plant: since then the two touch
 };
 
 // Returns how many of frond_rigid_def's three sizes a shape has.

@@ -76,6 +76,7 @@ struct SavedRigid {
     std::array<btScalar, 3> velocity, angular_velocity, velocity_before, angular_velocity_before, force, torque;
     int activation;
     btScalar still;
+    bool has_left;
 };
 struct SavedAhead {
     int body;

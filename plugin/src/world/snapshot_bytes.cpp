@@ -105,7 +105,7 @@ static void visit(Archive& a, SavedRigid& rigid) {
     a(rigid.is_plane), a(rigid.is_fragment), a(rigid.frame), a(rigid.frame_before), a(rigid.velocity),
         a(rigid.angular_velocity);
     a(rigid.velocity_before), a(rigid.angular_velocity_before), a(rigid.force), a(rigid.torque), a(rigid.activation),
-        a(rigid.still);
+        a(rigid.still), a(rigid.has_left);
 }
 
 static void visit(Archive& a, SavedAhead& ahead) {

@@ -149,6 +149,7 @@ void put_rigid(const SavedRigid& saved, Rigid& rigid) {
     body.applyTorque(vector_of(saved.torque));
     body.forceActivationState(saved.activation);
     body.setDeactivationTime(saved.still);
+    rigid.has_left = saved.has_left;
 }
 
 }  // namespace

@@ -124,7 +124,8 @@ SavedRigid take_rigid(const Rigid& rigid) {
             numbers_of(body.getTotalForce()),
             numbers_of(body.getTotalTorque()),
             body.getActivationState(),
-            body.getDeactivationTime()};
+            body.getDeactivationTime(),
+            rigid.has_left};
 }
 
 }  // namespace
