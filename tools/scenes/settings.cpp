@@ -201,6 +201,7 @@ const struct {
                        {"twist_to_bend", &frond_material::twist_to_bend},
                        {"damping_ratio", &frond_material::damping_ratio},
                        {"friction", &frond_material::friction},
+                       {"restitution", &frond_material::restitution},
                        {"yield_strain", &frond_material::yield_strain},
                        {"creep_rate", &frond_material::creep_rate},
                        {"strength", &frond_material::strength},

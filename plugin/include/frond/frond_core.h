@@ -50,7 +50,8 @@ enum {
      * times as much and may damp. Remedy: a shorter time step, or gentler pushes. */
     FROND_TROUBLE_RETRIED = 1 << 3,
     /* Cause: a kinematic body moved against a plant so far in one step that it came to a stem's axis, or pins moved by
-     * more than the plant's size. Effect: the one may pass through the other. Remedy: shorter steps. */
+     * more than the plant's size. Effect: the body may pass through the stem; the plant goes along with its pins as a
+     * whole. Remedy: shorter steps. */
     FROND_TROUBLE_PASSED = 1 << 4,
     /* Cause: parts of plants, or free bodies, moved against each other so fast, or were pressed so hard, that no
      * response kept them apart. Effect: they went only a part of the step's way, pins as well, so that nothing passed.

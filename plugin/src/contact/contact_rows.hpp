@@ -24,7 +24,7 @@ struct ContactRow {
     std::vector<Foreseen::Part> parts;  // of a link's impulse, without their work
 };
 
-// Returns the parts of an impulse, without what it does: along a row's normal and by friction, or of a bond.
+// Returns the parts of an impulse, without their work: along a row's normal and by friction, or of a bond.
 std::vector<Foreseen::Part> parts_of(const ContactRow& row, const Vec3& impulse);
 // Makes the rows of an island for a step of h [s]; wakes sleeping bodies that plants push.
 std::vector<ContactRow> make_rows(const World& world, const ContactIsland& island, double h);

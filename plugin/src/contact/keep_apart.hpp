@@ -7,9 +7,12 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// How a plant stands between two responses of a step: its island was answered by the last one, or before and stays as
-// it is, and may then meet what moves otherwise now, or its island gets no more responses.
-enum class Answer : uint8_t { fresh, kept, last };
+// How a plant stands between two responses of a step.
+enum class Answer : uint8_t {
+    fresh,  // the last response answered its island
+    kept,   // an earlier one did; what other islands do now may come at it
+    last    // its island gets no more responses
+};
 using Answers = std::vector<Answer>;  // by the plants' numbers
 inline bool stands(const PlantBody& body, const Answers& answers, Answer as) {
     return answers[size_t(body.number)] == as;

@@ -209,8 +209,8 @@ static Waiting find_waiting(const World& world) {
     return waiting;
 }
 
-// Takes the response of a plant back. What was solved again in its workspace has another factor, as it would foretell
-// the next push.
+// Takes the response of a plant back. Where it was solved again, its matrix was factored at another place, and the
+// compliances found with the one before are dropped.
 static void take_back(Waiting& waiting, size_t i) {
     const PlantBody& body = *waiting.bodies[i];
     if (!body.plant->follow && body.plant->trouble & FROND_TROUBLE_RETRIED) waiting.touched[size_t(body.number)] = {};
