@@ -42,6 +42,11 @@ struct GatherPieces {
         const AirPiece* piece[LANES<S>];
         int number[LANES<S>], count;
     };
+    // What came off is carried by a body, and feels no air here.
+    bool is_gone(int node) const {
+        const std::vector<int>& of_chain = plant.state.parting->of_chain;
+        return !of_chain.empty() && of_chain[size_t(node)] >= 0;
+    }
     // Groups segments of one shape from the i-th on; lanes beyond the last one repeat it.
     template <class S>
     FROND_INLINE Group<S> group_at(size_t i) const {
@@ -109,6 +114,7 @@ struct GatherPieces {
                              at_node = push_at(group, piece, frame, &AirPiece::node);
             // Segment by segment: where three meet, another order would round differently.
             for (int lane = 0; lane < group.count; lane++) {
+                if (is_gone(group.piece[lane]->node)) continue;
                 add(at_parent, lane, group.piece[lane]->parent);
                 add(at_node, lane, group.piece[lane]->node);
             }

@@ -5,12 +5,11 @@
 
 namespace frond {
 
-// Returns the mean velocity of a held node over the step.
+// Returns the mean velocity of a held node over the step; one that belongs to no element stays where it is.
 static Vec3 mean_velocity(const StepInput& input, int node) {
     const Motion& motion = input.motion;
     const bool is_pinned = size_t(node) < motion.pinned.size() && motion.pinned[size_t(node)];
-    return is_pinned ? Vec3((point(motion.pin_target, node) - point(motion.x, node)) / input.h)
-                     : Vec3(point(motion.v, node));
+    return is_pinned ? Vec3((point(motion.pin_target, node) - point(motion.x, node)) / input.h) : Vec3(Vec3::Zero());
 }
 
 template <class F>

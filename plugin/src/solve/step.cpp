@@ -12,6 +12,15 @@ namespace frond {
 
 namespace {
 
+// Returns the first mark from i on; the number of marks if there is none.
+int next_marked(const std::vector<uint8_t>& marks, int i) {
+    const size_t count = marks.size();
+    if (size_t(i) >= count) return int(count);
+    const void* found = std::memchr(marks.data() + i, 1, count - size_t(i));
+    FROND_ASSERT(i >= 0);
+    return found ? int(static_cast<const uint8_t*>(found) - marks.data()) : int(count);
+}
+
 // Returns whether sizes fit and loads are finite; others would only give NaN after an expensive step.
 bool input_is_sound(const System& system, const StepInput& input) {
     const SolveSettings& s = input.settings;
@@ -59,14 +68,17 @@ void prepare_damping(Workspace& workspace, const SolveSettings& settings) {
     if (!workspace.element_damping.empty()) workspace.damping.set_pattern(system.elements->pattern);
 }
 
-// Puts pinned nodes at their targets, to the last bit, with the velocity that took them there, and guided ones onto
-// their ways.
+// Puts pinned nodes at their targets, to the last bit, with the velocity that took them there, guided ones onto their
+// ways, and those that belong to no element to rest.
 void finish_pins(Workspace& workspace, const Motion& motion) {
     const int count = int(motion.pinned.size());
     for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1)) {
         point(workspace.x, i) = point(motion.pin_target, i);
         point(workspace.v, i) = point(workspace.v_start, i);
     }
+    const std::vector<uint8_t>& loose = workspace.system->loose;
+    for (int i = next_marked(loose, 0); i < int(loose.size()); i = next_marked(loose, i + 1))
+        point(workspace.v, i).setZero();
     for (const Guide& guide : workspace.guides)
         point(workspace.x, guide.node) = guided(guide, point(workspace.x, guide.node));
     look_at_guides(workspace, workspace.x);
@@ -136,11 +148,7 @@ static bool is_as_left(const Motion& motion) {
 }
 
 int next_pinned(const Motion& motion, int i) {
-    const size_t count = motion.pinned.size();
-    if (size_t(i) >= count) return int(count);
-    const void* found = std::memchr(motion.pinned.data() + i, 1, count - size_t(i));
-    FROND_ASSERT(i >= 0);
-    return found ? int(static_cast<const uint8_t*>(found) - motion.pinned.data()) : int(count);
+    return next_marked(motion.pinned, i);
 }
 
 bool history_holds(const Motion& motion, frond_integrator integrator, double h) {
