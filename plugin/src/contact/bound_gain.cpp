@@ -17,10 +17,6 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-bool is_movable(const ContactRow& row) {
-    return !row.plants[1] && (row.contact_body.rigid || row.contact_body.link);
-}
-
 // Returns the rows of one body, from `first` on.
 std::vector<size_t> rows_of_body(const std::vector<ContactRow>& rows, size_t first) {
     std::vector<size_t> all;

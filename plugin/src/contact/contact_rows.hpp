@@ -24,6 +24,11 @@ struct ContactRow {
     std::vector<Foreseen::Part> parts;  // of a link's impulse, without their work
 };
 
+// Returns whether a body that impulses move is on the other side.
+inline bool is_movable(const ContactRow& row) {
+    return !row.plants[1] && (row.contact_body.rigid || row.contact_body.link);
+}
+
 // Returns the parts of an impulse, without their work: along a row's normal and by friction, or of a bond.
 std::vector<Foreseen::Part> parts_of(const ContactRow& row, const Vec3& impulse);
 // Makes the rows of an island for a step of h [s]; wakes sleeping bodies that plants push.

@@ -7,11 +7,13 @@
 
 #include <algorithm>
 
+#include "contact/bodies_go_on.hpp"
 #include "contact/bound_gain.hpp"
 #include "contact/coupled_rows.hpp"
 #include "contact/foresee.hpp"
 #include "contact/keep_apart.hpp"
 #include "contact/part_plants.hpp"
+#include "contact/stop_asking.hpp"
 #include "contact/strip_search.hpp"
 #include "core/elementary.hpp"
 
@@ -41,24 +43,6 @@ struct Given {
 
 size_t contacts_of(const ContactIsland& island) {
     return island.with_bodies.size() + island.with_plants.size() + island.bonds.size();
-}
-
-// Computes how fast bodies go on once they are pushed, and their work on plants: impulses times mean velocities, to
-// which a bond adds that by which it comes back together.
-void go_on(const World& world, Given& given) {
-    for (size_t i = 0; i < given.rows.size(); i++) {
-        ContactRow& at = given.rows[i];
-        if (!at.work) continue;
-        Vec3 after = at.contact_body.velocity;
-        for (size_t k = 0; k < given.rows.size(); k++)
-            if (are_one_body(at, given.rows[k]))
-                after -= compliance_between(at.contact_body, given.rows[k].contact_body) * given.impulses[k];
-        if (at.contact) at.contact->pushed_on = after;
-        const bool is_slowed = pushes_back(world, *at.plants[0]);
-        const Vec3 moved = velocity_as_moved(world, at.contact_body);
-        const Vec3 mean = is_slowed ? Vec3(0.5 * (moved + after)) : moved;
-        *at.work = given.impulses[i].dot(mean + at.touch.wanted);
-    }
 }
 
 // Applies the rows' impulses to the plants.
@@ -93,7 +77,7 @@ std::vector<btRigidBody*> give_to_bodies(const World& world, Given& given) {
 }
 
 // Takes the impulses back that bodies gave to plants whose step is rewound: neither moves by them.
-void take_back_from_rewound(const World& world, Given& given) {
+void take_back_from_rewound(Given& given) {
     bool any = false;
     for (size_t i = 0; i < given.rows.size(); i++) {
         ContactRow& row = given.rows[i];
@@ -102,7 +86,7 @@ void take_back_from_rewound(const World& world, Given& given) {
         row.impulse->setZero();
         any = true;
     }
-    if (any) go_on(world, given);
+    if (any) go_on(given.rows, given.impulses);
 }
 
 // Brings the inertias of multi-bodies up to date.
@@ -117,45 +101,6 @@ void take_inertias(const ContactIsland& island) {
     std::sort(bodies.begin(), bodies.end());
     bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
     for (btMultiBody* body : bodies) take_present_inertia(*body);
-}
-
-// Returns the energy that plants and bodies gain by impulses, without the work of kinematic bodies [J]. It is none
-// where nothing parts faster than it came.
-double gain_by(const std::vector<Vec3>& impulses, const CoupledRows& coupled) {
-    const std::vector<ContactRow>& rows = coupled.rows();
-    const CouplingTable table = coupled.table();
-    std::vector<Vec3> changes(rows.size(), Vec3::Zero());  // of the velocities
-    for (size_t i = 0; i < rows.size(); i++)
-        if (!impulses[i].isZero(0))
-            for (const Coupling& by : table.row(int(i)))
-                changes[size_t(by.other)] += by.block.transpose() * impulses[i];
-    double gain = 0;
-    for (size_t i = 0; i < rows.size(); i++)
-        if (rows[i].plants[1] || !rows[i].contact_body.object->isKinematicObject())
-            gain += impulses[i].dot(rows[i].touch.velocity + 0.5 * changes[i]);
-    return gain;
-}
-
-// Has contacts ask for no more than that nothing comes nearer if the rest would give energy: steps are shortened
-// instead. Returns whether it did.
-bool stop_asking(const ContactIsland& island, const CoupledRows& coupled, const std::vector<Vec3>& impulses, double h) {
-    const auto asks = [](const PlantContact* contact) { return contact->lacking > 0; };
-    const auto parts = [](const Contact* contact) {
-        return contact->may_part && contact->gap < 0 && !contact->other->isKinematicObject();
-    };
-    if (std::none_of(island.with_plants.begin(), island.with_plants.end(), asks) &&
-        std::none_of(island.with_bodies.begin(), island.with_bodies.end(), parts))
-        return false;
-    double most = 0;
-    for (const PlantBody* body : island.plants) most += parting_work(*body->plant, h);
-    if (gain_by(impulses, coupled) <= most) return false;
-    for (PlantContact* contact : island.with_plants) {
-        contact->lacking = 0;
-        contact->may_ask = false;
-    }
-    for (Contact* contact : island.with_bodies)
-        if (parts(contact)) contact->may_part = false;
-    return true;
 }
 
 // Finds the impulses of an island and applies them to its plants.
@@ -184,7 +129,7 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
             if (rows[i].contact_body.link && !impulses[i].isZero(0))
                 rows[i].parts = coupled.parts_with_gives(i, impulses);
     }
-    go_on(world, given);
+    go_on(rows, impulses);
     give_to_plants(island, given);
     return given;
 }
@@ -332,8 +277,9 @@ void respond_to_contacts(World& world, double h) {
     if (std::any_of(all.passed.begin(), all.passed.end(), [](uint8_t passed) { return passed != 0; }))
         held = hold_back_what_passes(world, h);
     for (Given& of : all.given) {
-        if (bound_gain(world, of.rows, h, of.impulses)) go_on(world, of);
-        take_back_from_rewound(world, of);
+        if (bound_gain(world, of.rows, h, of.impulses)) go_on(of.rows, of.impulses);
+        take_back_from_rewound(of);
+        if (world.ledger) count_work_of_bodies(world, of.rows, of.impulses);
     }
     tell_what_is_behind(world, h);
     for (const Given& of : all.given) foresee(world, of.rows, h);

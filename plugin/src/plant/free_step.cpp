@@ -51,6 +51,7 @@ void go_part_of_way(Plant& plant, double share) {
     motion.x = plant.step.x_good + share * way_of_step(plant);
     motion.v *= share;
     motion.history.valid = false;
+    if (plant.step.push) plant.step.push->gone = share;
 }
 
 }  // namespace frond

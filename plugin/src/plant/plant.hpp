@@ -135,6 +135,7 @@ struct PlantState {
 struct ContactPush {
     VecX impulse;          // on the nodes of the mechanics [N s]; empty: none
     double share = 1;      // of it that the plant takes, less where it has turned away from what pushes it [-]
+    double gone = 1;       // share of the solved way that the plant goes [-]
     double most_work = 0;  // that it can have done [J]
     // Where the plant's elastic energy was last computed, and that [J].
     VecX x;
@@ -143,20 +144,21 @@ struct ContactPush {
 
 // Scratch of the running step: nothing of it outlives the step but memory.
 struct PlantStep {
-    WorkspacePtr workspace;             // from the pool; refers to system and own elements
-    SolveSettings settings;             // the plant's without effects that are off
-    Loads loads;                        // kept to reuse their memory
-    VecX x_good, v_good;                // before the step; empty after a healthy batched one: in the history
-    std::unique_ptr<ContactPush> push;  // null until contacts are known
-    std::unique_ptr<LoadWork> work;     // of an accepted step; null: nobody keeps account
-    bool is_watched = false;            // near something that it may go through
-    bool is_pressed = false;            // in contact with something that may move
-    bool is_sound = true;               // the solution can be the next state
-    bool is_off_course = false;         // something ended the step off course
-    bool may_yield = true;              // it may cause yielding, as far as is known
-    bool has_fibres = false;            // it pulls back fibres
-    bool starts_anew = false;           // it has no past, since the host changed something
-    bool looks_back = false;            // it continues from its history, if it can be batched
+    WorkspacePtr workspace;              // from the pool; refers to system and own elements
+    SolveSettings settings;              // the plant's without effects that are off
+    Loads loads;                         // kept to reuse their memory
+    VecX x_good, v_good;                 // before the step; empty after a healthy batched one: in the history
+    std::unique_ptr<ContactPush> push;   // null until contacts are known
+    std::unique_ptr<LoadWork> work;      // of an accepted step; null: nobody keeps account
+    std::unique_ptr<LoadWork> unpulled;  // of the solve, before taut fibres pulled; null: none did
+    bool is_watched = false;             // near something that it may go through
+    bool is_pressed = false;             // in contact with something that may move
+    bool is_sound = true;                // the solution can be the next state
+    bool is_off_course = false;          // something ended the step off course
+    bool may_yield = true;               // it may cause yielding, as far as is known
+    bool has_fibres = false;             // it pulls back fibres
+    bool starts_anew = false;            // it has no past, since the host changed something
+    bool looks_back = false;             // it continues from its history, if it can be batched
 };
 
 // View: what follows the state for those who look at the plant.
@@ -238,9 +240,10 @@ inline bool is_pushed(const Plant& plant) {
 // Adds the push of contacts, if there is any, to the solved step of a plant in contact: only then does its energy show
 // whether the step went wrong.
 void add_contacts(Plant& plant, double h);
-// Returns the work that parting it from what it overlaps may do on it in a step of h [s]: it lifts the plant slowly
-// [J].
+// Returns the work that parting it from what it overlaps may do on it in a step of h [s]: it lifts a plant, or another
+// mass [kg], slowly [J].
 double parting_work(const Plant& plant, double h);
+double parting_work(double mass, double h);
 // Moves it by impulses on its nodes [N s], without velocity, as far as that does little work on it. Returns the way of
 // the nodes [m]; empty: none.
 VecX correct_position(Plant& plant, const VecX& impulses, double h);

@@ -107,6 +107,7 @@ static void hold_back(Plant& plant, double h) {
         plant.report.ok = share > LEAST;
         motion.x = plant.step.x_good + share * way;
         motion.v = share * v;
+        if (plant.step.push) plant.step.push->gone = share;
     }
 }
 
@@ -170,6 +171,8 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.view.lead = 0;
     plant.step.may_yield = true;
     plant.step.push = nullptr;
+    plant.step.unpulled = nullptr;
+    plant.state.fibre_force.resize(0);
 
     // Effects.
     take_workspace(plant);
@@ -204,9 +207,12 @@ void finish_solving(Plant& plant, double h) {
         (plant.follow ? plant.report.ok : is_sound(plant)) && !(plant.step.is_off_course && is_far_out(plant));
 }
 
-double parting_work(const Plant& plant, double h) {
+double parting_work(double mass, double h) {
     constexpr double SPEED = 0.1;  // [m/s]
-    return node_mass_of(*plant.system).sum() * GRAVITY * SPEED * h;
+    return mass * GRAVITY * SPEED * h;
+}
+double parting_work(const Plant& plant, double h) {
+    return parting_work(node_mass_of(*plant.system).sum(), h);
 }
 
 // Corrects positions as far as nothing bends much and the work done on the plant stays small: contacts with conflicting

@@ -1,0 +1,85 @@
+// In: the impulses of an island. Out: its contacts, which ask for less where these give more energy than parting may.
+#include "contact/stop_asking.hpp"
+
+#include <algorithm>
+
+#include "contact/contact_body.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+// Returns the energy that plants and bodies gain by impulses, without the work of kinematic bodies [J]. It is none
+// where nothing parts faster than it came.
+double gain_by(const std::vector<Vec3>& impulses, const CoupledRows& coupled) {
+    const std::vector<ContactRow>& rows = coupled.rows();
+    const CouplingTable table = coupled.table();
+    std::vector<Vec3> changes(rows.size(), Vec3::Zero());  // of the velocities
+    for (size_t i = 0; i < rows.size(); i++)
+        if (!impulses[i].isZero(0))
+            for (const Coupling& by : table.row(int(i)))
+                changes[size_t(by.other)] += by.block.transpose() * impulses[i];
+    double gain = 0;
+    for (size_t i = 0; i < rows.size(); i++)
+        if (rows[i].plants[1] || !rows[i].contact_body.object->isKinematicObject())
+            gain += impulses[i].dot(rows[i].touch.velocity + 0.5 * changes[i]);
+    return gain;
+}
+
+bool asks(const PlantContact* contact) {
+    return contact->lacking > 0;
+}
+// A kinematic body that moves does what work its way takes; one at rest parts as a static one does.
+bool parts(const Contact* contact) {
+    return contact->may_part && contact->gap < 0 &&
+           !(contact->other->isKinematicObject() && !velocity_at(*contact->other, contact->on_other).isZero(0));
+}
+
+// Returns the work of contacts by parting from bodies, on plants and free bodies: what is held and overlaps something
+// that cannot move gets it whatever it takes [J]. Links have motors.
+double work_of_parting(const ContactIsland& island, const std::vector<Vec3>& impulses, const CoupledRows& coupled) {
+    const std::vector<ContactRow>& rows = coupled.rows();
+    double work = 0;
+    for (size_t i = 0; i < rows.size(); i++) {
+        const ContactRow& row = rows[i];
+        if (row.plants[1] || row.touch.is_bond || row.contact_body.link) continue;
+        if (parts(island.with_bodies[row.number]))
+            work += std::max(0.0, row.touch.bias_velocity) * impulses[i].dot(row.touch.normal);
+    }
+    return work;
+}
+
+// Returns the work that parting may do on the plants of an island, and then on its free bodies too [J].
+std::array<double, 2> most_parting(const ContactIsland& island, double h) {
+    double of_plants = 0, of_bodies = 0;
+    for (const PlantBody* body : island.plants) of_plants += parting_work(*body->plant, h);
+    std::vector<const btRigidBody*> bodies;
+    for (const Contact* contact : island.with_bodies)
+        if (is_free(*contact->other)) bodies.push_back(btRigidBody::upcast(contact->other));
+    std::sort(bodies.begin(), bodies.end());
+    bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+    for (const btRigidBody* body : bodies) of_bodies += parting_work(1 / double(body->getInvMass()), h);
+    return {of_plants, of_plants + of_bodies};
+}
+
+}  // namespace
+
+bool stop_asking(const ContactIsland& island, const CoupledRows& coupled, const std::vector<Vec3>& impulses, double h) {
+    if (std::none_of(island.with_plants.begin(), island.with_plants.end(), asks) &&
+        std::none_of(island.with_bodies.begin(), island.with_bodies.end(), parts))
+        return false;
+    const auto [of_plants, of_all] = most_parting(island, h);
+    if (gain_by(impulses, coupled) <= of_plants && work_of_parting(island, impulses, coupled) <= of_all) return false;
+    for (PlantContact* contact : island.with_plants) {
+        contact->lacking = 0;
+        contact->may_ask = false;
+    }
+    for (Contact* contact : island.with_bodies)
+        if (parts(contact)) contact->may_part = false;
+    return true;
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
