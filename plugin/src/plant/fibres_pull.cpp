@@ -183,6 +183,7 @@ static void pull_back(Plant& plant, double h, bool is_step) {
     if (plant.state.is_entangled || !plant.state.fibre_give.empty()) let_fibres_give(plant, h);
     const std::vector<FibreRow> rows = find_fibre_rows(plant);
     if (rows.empty()) return;
+    if (is_step) plant.step.unpulled = std::make_unique<LoadWork>(work_of_loads(plant, h));
     const Eigen::Index count = Eigen::Index(rows.size());
     const bool was_shaken = plant.state.motion.history.shaken;
     const double reach = reach_of(*plant.step.workspace);
@@ -218,6 +219,7 @@ static void pull_back(Plant& plant, double h, bool is_step) {
 
 void hold_lengths(Plant& plant, double h, bool is_step) {
     plant.state.fibre_force.resize(0);
+    plant.step.unpulled = nullptr;
     if (!plant.step.has_fibres || !plant.fibres || !plant.report.ok) return;
     const Timer timer;
     pull_back(plant, h, is_step);

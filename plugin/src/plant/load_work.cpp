@@ -67,12 +67,13 @@ std::vector<uint8_t> held_nodes(const Plant& plant) {
     return held;
 }
 
-// Returns the forces on all nodes but those that hold them, and damping proportional to stiffness.
+// Returns the forces on all nodes but those that hold them and damping proportional to stiffness.
 VecX forces_at_end(const Plant& plant, const VecX& elastic, double h) {
     const Motion& motion = plant.state.motion;
     const VecX& mass = node_mass_of(*plant.system);
     VecX force = elastic;
     if (plant.step.loads.force.size() > 0) force += plant.step.loads.force;
+    if (plant.state.fibre_force.size() > 0) force += plant.state.fibre_force;
     if (is_pushed(plant)) force += plant.step.push->share / h * plant.step.push->impulse;
     add_spring_force(grab_springs(plant), motion.x, force);
     add_drag_force(plant.step.loads.drags, motion.x, motion.v, force);
@@ -80,15 +81,6 @@ VecX forces_at_end(const Plant& plant, const VecX& elastic, double h) {
         point(force, i) +=
             mass[i] * (plant.step.loads.gravity - plant.step.settings.mass_damping * Vec3(point(motion.v, i)));
     return force;
-}
-
-// Returns the force of stiffness-proportional damping per second of it, -K v, by a difference of elastic forces.
-VecX damping_per_second(const Plant& plant, const VecX& elastic) {
-    constexpr double FAR = 1e-6;  // [m]
-    const double fastest = plant.state.motion.v.lpNorm<Eigen::Infinity>();
-    if (!(fastest > 0)) return VecX::Zero(elastic.size());
-    const double time = FAR / fastest;
-    return (elastic_force(plant, plant.state.motion.x + time * plant.state.motion.v) - elastic) / time;
 }
 
 // Returns the mean force on all held nodes together in the step.
@@ -122,9 +114,10 @@ Vec3 mean_way(const Plant& plant, const std::vector<uint8_t>& held, const VecX& 
     return sum / std::max(count, 1);
 }
 
-// Elastic forces count by the trapezoidal rule, their deviation from it halfway as error. The damping of elements that
-// differ counts by its mean; half of the largest counts as error, since the step took it from a stiffness that is not
-// known here.
+// Elastic forces count by the trapezoidal rule, their deviation from it halfway as error. Damping counts by the change
+// of elastic forces, which turning does not feign: velocities at the end of a step are off by what stiff parts would
+// damp with a multiple of all other forces. Where elements differ it counts by its mean; half of the largest counts as
+// error, since the step took it from a stiffness that is not known here.
 void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, const VecX& way, LoadWork& work) {
     const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good;
     const VecX elastic = elastic_force(plant, x), mean_elastic = 0.5 * (elastic + elastic_force(plant, x_good));
@@ -137,7 +130,7 @@ void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, co
         damping = 0.5 * (*low + *high);
         most = *high;
     }
-    const VecX force = forces_at_end(plant, elastic, h), per_second = damping_per_second(plant, elastic);
+    const VecX force = forces_at_end(plant, elastic, h);
     const Vec3 mean = mean_way(plant, held, way);
     work.pins += mean_holding_force(plant, h).dot(mean);
     for (int i = 0; i < int(held.size()); i++) {
@@ -145,11 +138,10 @@ void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, co
         const bool is_turn = plant.follow && i % 2 == 1;
         const Vec3 own = is_turn ? Vec3(point(way, i)) : Vec3(point(way, i) - mean);
         const Vec3 acceleration = (point(plant.state.motion.v, i) - point(plant.step.v_good, i)) / h;
-        const Vec3 elastic_change = point(elastic, i) - point(mean_elastic, i);
-        const Vec3 reaction =
-            mass[i] * acceleration - point(force, i) + elastic_change - damping * point(per_second, i);
+        const Vec3 elastic_change = point(elastic, i) - point(mean_elastic, i), per_second = 2 / h * elastic_change;
+        const Vec3 reaction = mass[i] * acceleration - point(force, i) + elastic_change - damping * per_second;
         work.pins += reaction.dot(own);
-        work.error += std::abs(point(off_mean, i).dot(own)) + 0.5 * most * std::abs(point(per_second, i).dot(own));
+        work.error += std::abs(point(off_mean, i).dot(own)) + 0.5 * most * std::abs(per_second.dot(own));
     }
 }
 
@@ -194,6 +186,12 @@ LoadWork work_of_loads(const Plant& plant, double h) {
     add_air(plant, work);
     add_grabs(plant, work);
     if (is_pushed(plant)) work.contacts = plant.step.push->share / h * plant.step.push->impulse.dot(way);
+    // What fibres pull back once pins have strained the plant gives these nothing back.
+    if (plant.step.unpulled && !is_pushed(plant)) {
+        work.pins = plant.step.unpulled->pins;
+        work.error += plant.step.unpulled->error;
+        return work;
+    }
     const std::vector<uint8_t> held = held_nodes(plant);
     if (any_moves(held, way)) add_pins(plant, h, held, way, work);
     return work;
