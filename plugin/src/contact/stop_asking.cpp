@@ -31,20 +31,23 @@ double gain_by(const std::vector<Vec3>& impulses, const CoupledRows& coupled) {
 bool asks(const PlantContact* contact) {
     return contact->lacking > 0;
 }
-// A kinematic body that moves does what work its way takes; one at rest parts as a static one does.
+// A kinematic body that moves does what work its way takes; one at rest parts as a static one does. Hosts move ghost
+// objects too, and Bullet knows no speed of these.
 bool parts(const Contact* contact) {
-    return contact->may_part && contact->gap < 0 &&
-           !(contact->other->isKinematicObject() && !velocity_at(*contact->other, contact->on_other).isZero(0));
+    const bool may_move =
+        contact->other->isKinematicObject() &&
+        !(btRigidBody::upcast(contact->other) && velocity_at(*contact->other, contact->on_other).isZero(0));
+    return contact->may_part && contact->gap < 0 && !may_move;
 }
 
 // Returns the work of contacts by parting from bodies, on plants and free bodies: what is held and overlaps something
-// that cannot move gets it whatever it takes [J]. Links have motors.
+// that cannot move gets it whatever it takes [J]. Links have motors, and ghost objects are moved by their hosts.
 double work_of_parting(const ContactIsland& island, const std::vector<Vec3>& impulses, const CoupledRows& coupled) {
     const std::vector<ContactRow>& rows = coupled.rows();
     double work = 0;
     for (size_t i = 0; i < rows.size(); i++) {
         const ContactRow& row = rows[i];
-        if (row.plants[1] || row.touch.is_bond || row.contact_body.link) continue;
+        if (row.plants[1] || row.touch.is_bond || !btRigidBody::upcast(row.contact_body.object)) continue;
         if (parts(island.with_bodies[row.number]))
             work += std::max(0.0, row.touch.bias_velocity) * impulses[i].dot(row.touch.normal);
     }
