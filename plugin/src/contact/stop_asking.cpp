@@ -2,6 +2,7 @@
 #include "contact/stop_asking.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "contact/contact_body.hpp"
 #include "world/world.hpp"
