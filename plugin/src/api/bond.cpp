@@ -1,6 +1,6 @@
 // frond_bond_*: points of plants held to bodies.
-#include "api/bonds.hpp"
 #include "api/call.hpp"
+#include "api/handles.hpp"
 #include "world/is_in.hpp"
 
 using namespace frond;
@@ -8,17 +8,14 @@ using namespace frond;
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-void make_bond(PlantBody& plant, const frond_vec3& point, btCollisionObject& body, frond_bond* out) {
+frond_bond make_bond(PlantBody& plant, const frond_vec3& point, btCollisionObject& body) {
     check_vec(point, "point [m]");
     World& world = *plant.world;
     Bond& bond = add_bond(world, plant, to_vec(point), body);
     wake(plant);
-    bond.handle = bond_slots().insert(&bond);
-    if (!bond.handle) {
-        world.bonds.pop_back();
-        fail(FROND_RESULT_OUT_OF_MEMORY, "too many bonds; destroy some");
-    }
-    out->id = bond.handle;
+    const auto handle = handle_for<frond_bond>(&bond, [&] { world.bonds.pop_back(); });
+    bond.handle = handle.id;
+    return handle;
 }
 
 }  // namespace FROND_BULLET_PRECISION
@@ -27,14 +24,12 @@ void make_bond(PlantBody& plant, const frond_vec3& point, btCollisionObject& bod
 extern "C" {
 
 frond_result frond_bond_create(frond_plant plant, frond_vec3 point, frond_rigid rigid, frond_bond* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         PlantBody& body = look_at(get(plant));
         Rigid& held_by = get(rigid);
         if (held_by.world != body.world)
             fail(FROND_RESULT_BAD_ARGUMENT, "the rigid body is of another world than the plant");
-        make_bond(body, point, *held_by.body, out);
+        return make_bond(body, point, *held_by.body);
     });
 }
 
@@ -50,7 +45,7 @@ frond_result frond_bond_get(frond_bond bond, frond_vec3* held_point, frond_vec3*
 
 void frond_bond_destroy(frond_bond bond) {
     call([&] {
-        Bond* found = bond_slots().erase(bond.id);
+        Bond* found = slots<frond_bond>().erase(bond.id);
         if (!found) return;
         wake(*found->plant);
         found->plant->world->bonds.remove_if([&](const Bond& other) { return &other == found; });
@@ -58,7 +53,7 @@ void frond_bond_destroy(frond_bond bond) {
 }
 
 bool frond_bond_is_valid(frond_bond bond) {
-    return bond_slots().find(bond.id) != nullptr;
+    return find(bond) != nullptr;
 }
 
 }  // extern "C"
@@ -67,14 +62,12 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 frond_result bond(frond_plant plant, const btVector3& point, btCollisionObject* object, frond_bond* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         PlantBody& body = look_at(get(plant));
         check_pointer(object, "body");
         if (!is_in(*body.world->bullet, object) || PlantBody::of(object))
             fail(FROND_RESULT_BAD_ARGUMENT, "the body is not in the plant's Bullet world, or is a plant; add it first");
-        make_bond(body, {double(point.x()), double(point.y()), double(point.z())}, *object, out);
+        return make_bond(body, {double(point.x()), double(point.y()), double(point.z())}, *object);
     });
 }
 

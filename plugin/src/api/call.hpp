@@ -34,6 +34,15 @@ template <class T>
 void check_pointer(const T* pointer, const char* name) {
     if (!pointer) fail(FROND_RESULT_BAD_ARGUMENT, "%s is null; pass a valid pointer", name);
 }
+// The frame of a function that returns something by `out`, which is zero unless all goes well.
+template <class Out, class Body>
+frond_result give(Out* out, Body&& body) noexcept {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        *out = body();
+    });
+}
 inline void check_range(double value, double low, double high, const char* name) {
     if (!(value >= low && value <= high))
         fail(FROND_RESULT_BAD_ARGUMENT, "%s is %g; it must be in %g .. %g", name, value, low, high);
@@ -41,8 +50,20 @@ inline void check_range(double value, double low, double high, const char* name)
 inline void check_vec(const frond_vec3& p, const char* name) {
     for (double value : {p.x, p.y, p.z}) check_range(value, -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
 }
-inline void check_count(int given, int own, const char* name) {
-    if (given != own) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; this plant has %d", name, given, own);
+// Returns a rotation as a quaternion of length one.
+inline Quat checked_rotation(const frond_quat& rotation, const char* name) {
+    const Quat turn = to_quat(rotation);
+    const double length = turn.norm();
+    if (!(length > 1e-9 && length < 1e9))
+        fail(FROND_RESULT_BAD_ARGUMENT, "%s has no direction; (0,0,0,1) turns nothing", name);
+    return turn.normalized();
+}
+inline void check_count(int given, int own, const char* name, const char* whose = "plant") {
+    if (given != own) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; this %s has %d", name, given, whose, own);
+}
+inline void check_effects(frond_effects effects, const char* name) {
+    if (effects & ~uint32_t(FROND_EFFECT_ALL))
+        fail(FROND_RESULT_BAD_ARGUMENT, "%s has unknown bits; use FROND_EFFECT_*", name);
 }
 // Checks a name or a path: none in a file system or a mesh is longer than the limit.
 inline void check_text(const char* text, const char* name) {
@@ -59,8 +80,11 @@ int number_of(const Enum& value) {
     std::memcpy(&number, &value, sizeof number);
     return number;
 }
-inline void check_row(int row, int count, const char* name) {
-    if (row < 0 || row >= count) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; use one of its enum's names", name, row);
+template <class Enum>
+void check_row(const Enum& row, int count, const char* name) {
+    const int number = number_of(row);
+    if (number < 0 || number >= count)
+        fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; use one of its enum's names", name, number);
 }
 // A def's cookie is its kind, a letter, and the version of the header that it was made by: see FROND_DEF_COOKIE. Patch
 // versions are compatible.

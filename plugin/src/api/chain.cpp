@@ -1,4 +1,4 @@
-// frond_plant_*: loads, supports, state and section forces of the chain.
+// frond_plant_*: loads, supports, state and section forces of the chain, and what the roots hold.
 #include "api/call.hpp"
 #include "api/handles.hpp"
 #include "plant/chain_state.hpp"
@@ -25,7 +25,7 @@ void check_moves_chain(const Plant& plant) {
 
 // Returns the axis in the world's frame, of length one; any if a support needs none.
 Vec3 checked_axis(const frond_support& support) {
-    check_row(number_of(support.held_turns), FROND_HELD_TURNS_COUNT, "held_turns");
+    check_row(support.held_turns, FROND_HELD_TURNS_COUNT, "held_turns");
     if (support.held_turns == FROND_HELD_TURNS_NONE || support.held_turns == FROND_HELD_TURNS_ALL) return Vec3::UnitY();
     check_vec(support.axis, "axis");
     const double length = to_vec(support.axis).norm();
@@ -51,11 +51,26 @@ ChainNodeState checked(const frond_chain_state& state) {
     check_vec(state.position, "position [m]");
     check_vec(state.velocity, "velocity [m/s]");
     check_vec(state.angular_velocity, "angular_velocity [rad/s]");
-    const Quat rotation(state.rotation.w, state.rotation.x, state.rotation.y, state.rotation.z);
-    const double length = rotation.norm();
-    if (!(length > 1e-9 && length < 1e9))
-        fail(FROND_RESULT_BAD_ARGUMENT, "rotation has no direction; (0,0,0,1) turns nothing");
-    return {to_vec(state.position), rotation.normalized(), to_vec(state.velocity), to_vec(state.angular_velocity)};
+    return {to_vec(state.position), checked_rotation(state.rotation, "rotation"), to_vec(state.velocity),
+            to_vec(state.angular_velocity)};
+}
+
+// Returns the gravity that acts on a plant; zero if it is not to have weight.
+Vec3 weight_of(const PlantBody& body) {
+    const bool has_weight = body.plant->input.effects & body.world->effects & FROND_EFFECT_GRAVITY;
+    return has_weight ? gravity_of(*body.world) : Vec3(Vec3::Zero());
+}
+
+// Writes a force and a moment for which the caller asked, each of which may be null; zero on failure.
+template <class Compute>
+frond_result give_wrench(frond_vec3* force, frond_vec3* moment, Compute&& compute) {
+    return call([&] {
+        for (frond_vec3* out : {force, moment})
+            if (out) *out = {};
+        const Wrench held = compute();
+        if (force) *force = from_vec(held.force);
+        if (moment) *moment = from_vec(held.moment);
+    });
 }
 
 }  // namespace
@@ -63,7 +78,7 @@ ChainNodeState checked(const frond_chain_state& state) {
 extern "C" {
 
 int frond_plant_get_chain_node_count(frond_plant plant) {
-    const PlantBody* body = plant_slots().find(plant.id);
+    const PlantBody* body = find(plant);
     return body ? chain_node_count_of(*body->plant) : 0;
 }
 
@@ -98,19 +113,21 @@ frond_result frond_plant_set_support(frond_plant plant, int chain_node, const fr
 }
 
 frond_result frond_plant_get_support_force(frond_plant plant, int chain_node, frond_vec3* force, frond_vec3* moment) {
-    return call([&] {
-        for (frond_vec3* out : {force, moment})
-            if (out) *out = {};
+    return give_wrench(force, moment, [&] {
         PlantBody& body = get(plant);
         check_index(chain_node, chain_node_count_of(*body.plant), "chain_node");
         if (!support_of(*body.plant, chain_node))
             fail(FROND_RESULT_BAD_ARGUMENT, "chain node %d has no support; call frond_plant_set_support", chain_node);
-        const Plant& p = *look_at(body).plant;
-        const bool has_weight = p.input.effects & body.world->effects & FROND_EFFECT_GRAVITY;
-        const Vec3 gravity = has_weight ? gravity_of(*body.world) : Vec3(Vec3::Zero());
-        const Wrench held = support_force(p, gravity, body.world->effects, chain_node);
-        if (force) *force = from_vec(held.force);
-        if (moment) *moment = from_vec(held.moment);
+        look_at(body);
+        return support_force(*body.plant, weight_of(body), body.world->effects, chain_node);
+    });
+}
+
+frond_result frond_plant_get_root_force(frond_plant plant, frond_vec3 about, frond_vec3* force, frond_vec3* moment) {
+    return give_wrench(force, moment, [&] {
+        PlantBody& body = look_at(get(plant));
+        check_vec(about, "about [m]");
+        return root_force(*body.plant, weight_of(body), body.world->effects, to_vec(about));
     });
 }
 
@@ -120,13 +137,8 @@ frond_result frond_plant_get_chain_state(frond_plant plant, frond_chain_state* o
         const Plant& p = *look_at(get(plant)).plant;
         check_count(chain_node_count, chain_node_count_of(p), "chain_node_count");
         check_moves_chain(p);
-        for (const ChainNodeState& state : chain_state(p)) {
-            const Quat& turn = state.rotation;
-            *out++ = {from_vec(state.place),
-                      {turn.x(), turn.y(), turn.z(), turn.w()},
-                      from_vec(state.velocity),
-                      from_vec(state.spin)};
-        }
+        for (const ChainNodeState& state : chain_state(p))
+            *out++ = {from_vec(state.place), from_quat(state.rotation), from_vec(state.velocity), from_vec(state.spin)};
     });
 }
 

@@ -1,6 +1,5 @@
 // frond_fill_def, frond_default_material: all defaults of the C API.
 #include "api/call.hpp"
-#include "api/robots.hpp"
 #include "core/decompose.hpp"
 #include "frond/frond_robot.h"
 
@@ -87,7 +86,7 @@ static frond_rigid_def rigid_def() {
 static frond_robot_def robot_def() {
     frond_robot_def def = {};
     const Quat upright = turn_between(Vec3::UnitZ(), Vec3::UnitY());
-    def.rotation = {upright.x(), upright.y(), upright.z(), upright.w()};
+    def.rotation = from_quat(upright);
     def.is_fixed = true;
     def.friction = 0.5;
     def.group = btBroadphaseProxy::DefaultFilter;
@@ -100,41 +99,31 @@ static void fill(void* out, Def def) {
     std::memcpy(out, &def, sizeof def);
 }
 
-// The cookie comes first in every def, whatever the version.
-static void write_cookie(void* def, uint32_t cookie) {
-    std::memcpy(def, &cookie, sizeof cookie);
+static void fill_kind(void* def, uint32_t kind) {
+    switch (kind) {
+        case 'W':
+            return fill(def, world_def());
+        case 'A':
+            return fill(def, wind_def());
+        case 'M':
+            return fill(def, model_def());
+        case 'P':
+            return fill(def, plant_def());
+        case 'D':
+            return fill(def, detail_def());
+        case 'R':
+            return fill(def, rigid_def());
+        case 'U':
+            return fill(def, robot_def());
+    }
 }
 
 extern "C" {
 
 void frond_fill_def(void* def, uint32_t cookie) {
     if (!def) return;
-    if (is_of_this_version(cookie)) {
-        switch (cookie >> 24) {
-            case 'W':
-                fill(def, world_def());
-                break;
-            case 'A':
-                fill(def, wind_def());
-                break;
-            case 'M':
-                fill(def, model_def());
-                break;
-            case 'P':
-                fill(def, plant_def());
-                break;
-            case 'D':
-                fill(def, detail_def());
-                break;
-            case 'R':
-                fill(def, rigid_def());
-                break;
-            case 'U':
-                fill(def, robot_def());
-                break;
-        }
-    }
-    write_cookie(def, cookie);
+    if (is_of_this_version(cookie)) fill_kind(def, cookie >> 24);
+    fill(def, cookie);  // it comes first in every def, whatever the version
 }
 
 frond_material frond_default_material(void) {

@@ -7,21 +7,17 @@ using namespace frond;
 extern "C" {
 
 frond_result frond_grab_create(frond_plant plant, frond_vec3 near_point, double stiffness, frond_grab* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         PlantBody& body = get(plant);
         check_vec(near_point, "point [m]");
         check_range(stiffness, 1e-9, 1e12, "stiffness [N/m]");
         Plant& p = awaken(body);
         const int vertex = nearest_vertex(p, to_vec(near_point));
         p.input.grabs.push_back({vertex, grab_place(p, vertex), stiffness, 0});
-        p.input.grabs.back().handle = grab_slots().insert({&body, &p.input.grabs.back()});
-        if (!p.input.grabs.back().handle) {
-            p.input.grabs.pop_back();
-            fail(FROND_RESULT_OUT_OF_MEMORY, "too many grabs; destroy some");
-        }
-        out->id = p.input.grabs.back().handle;
+        Grab& grab = p.input.grabs.back();
+        const auto handle = handle_for<frond_grab>(GrabEntry{&body, &grab}, [&] { p.input.grabs.pop_back(); });
+        grab.handle = handle.id;
+        return handle;
     });
 }
 
@@ -49,7 +45,7 @@ frond_result frond_grab_get(frond_grab grab, frond_vec3* held_point, frond_vec3*
 
 void frond_grab_destroy(frond_grab grab) {
     call([&] {
-        const GrabEntry entry = grab_slots().erase(grab.id);
+        const GrabEntry entry = slots<frond_grab>().erase(grab.id);
         if (!entry.body) return;
         wake(*entry.body);
         Plant& plant = *entry.body->plant;
@@ -59,7 +55,7 @@ void frond_grab_destroy(frond_grab grab) {
 }
 
 bool frond_grab_is_valid(frond_grab grab) {
-    return grab_slots().find(grab.id).grab != nullptr;
+    return bool(find(grab));
 }
 
 }  // extern "C"

@@ -25,20 +25,13 @@ static void check_model_def(const frond_model_def* def) {
         fail(FROND_RESULT_BAD_ARGUMENT,
              "def.allow_stiffening is %g; give the largest factor that organs may be made stiffer by, 1 and more",
              def->allow_stiffening);
-    if (number_of(def->rest) < 0 || number_of(def->rest) >= FROND_REST_COUNT)
-        fail(FROND_RESULT_BAD_ARGUMENT, "def.rest is %d; use FROND_REST_*", number_of(def->rest));
+    check_row(def->rest, FROND_REST_COUNT, "def.rest");
     check_range(def->organ_count, 0, 10000, "def.organ_count");
     if (def->organ_count > 0) check_pointer(def->organs, "def.organs");
     for (int i = 0; i < def->organ_count; i++) check_text(def->organs[i].organ, "def.organs[].organ");
     check_range(def->correction_count, 0, 100000, "def.correction_count");
     if (def->correction_count > 0) check_pointer(def->corrections, "def.corrections");
     for (int i = 0; i < def->correction_count; i++) check_text(def->corrections[i].organ, "def.corrections[].organ");
-}
-
-static frond_model insert_model(std::shared_ptr<const Model> model) {
-    const uint64_t id = model_slots().insert(std::move(model));
-    if (!id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many models; destroy some");
-    return {id};
 }
 
 // A model is as it was built, so a def that asks for something else would be of no effect.
@@ -66,21 +59,19 @@ static void check_no_wish(const frond_model_def& def) {
 // Runs a build and gives its model a handle.
 template <class Build>
 static frond_result open_model(const frond_model_def* def, frond_model* out, Build&& build) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         check_model_def(def);
-        *out = insert_model(build());
+        return handle_for<frond_model>(build());
     });
 }
 
 // Fills a view from a model; zero on failure.
 template <class View, class Fill>
 static frond_result view_model(frond_model model, View* out, Fill&& fill) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
-        fill(*get(model), *out);
+    return give(out, [&] {
+        View view = {};
+        fill(*get(model), view);
+        return view;
     });
 }
 
@@ -144,15 +135,13 @@ static void describe_sections(const Model& model, int organ, frond_organ& view) 
 extern "C" {
 
 frond_result frond_material_preset(const char* kind, frond_material* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         check_pointer(kind, "kind");
         const Material* material = material_preset(kind);
         if (!material)
             fail(FROND_RESULT_BAD_ARGUMENT, "there is no material \"%.64s\"; there are %s", kind,
                  material_kinds().c_str());
-        *out = *material;
+        return *material;
     });
 }
 
@@ -213,11 +202,9 @@ frond_result frond_model_from_tets(const double* xyz, int node_count, const int3
 }
 
 frond_result frond_model_load_bytes(const void* bytes, size_t size, frond_model* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         check_pointer(bytes, "bytes");
-        *out = insert_model(model_from_cooked(static_cast<const uint8_t*>(bytes), size));
+        return handle_for<frond_model>(model_from_cooked(static_cast<const uint8_t*>(bytes), size));
     });
 }
 
@@ -253,11 +240,11 @@ frond_result frond_model_save_bytes(frond_model model, void* bytes, size_t size)
 }
 
 void frond_model_destroy(frond_model model) {
-    call([&] { model_slots().erase(model.id); });
+    call([&] { slots<frond_model>().erase(model.id); });
 }
 
 bool frond_model_is_valid(frond_model model) {
-    return bool(model_slots().find(model.id));
+    return bool(find(model));
 }
 
 frond_result frond_model_get_info(frond_model model, frond_model_info* out) {
@@ -297,10 +284,8 @@ frond_result frond_model_get_organ(frond_model model, int organ, frond_organ* ou
 frond_result frond_model_get_capsule_organs(frond_model model, int32_t* out, int capsule_count) {
     return call([&] {
         const std::shared_ptr<const Model> found = get(model);
-        const int own = int(found->capsules.size());
-        if (capsule_count != own)
-            fail(FROND_RESULT_BAD_ARGUMENT, "capsule_count is %d; this model has %d", capsule_count, own);
-        if (own > 0) check_pointer(out, "out");
+        check_count(capsule_count, int(found->capsules.size()), "capsule_count", "model");
+        if (capsule_count > 0) check_pointer(out, "out");
         for (const auto& [begin, end] : found->capsules) *out++ = int32_t(found->chain.nodes[size_t(end)].organ);
     });
 }

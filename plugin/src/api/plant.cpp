@@ -7,26 +7,15 @@
 
 using namespace frond;
 
-static void check_effects(frond_effects effects) {
-    if (effects & ~uint32_t(FROND_EFFECT_ALL))
-        fail(FROND_RESULT_BAD_ARGUMENT, "effects has unknown bits; use FROND_EFFECT_*");
-}
-
-static void check_rotation(const Quat& rotation, const char* name) {
-    const double length = rotation.norm();
-    if (!(length > 1e-9 && length < 1e9))
-        fail(FROND_RESULT_BAD_ARGUMENT, "%s has no direction; (0,0,0,1) turns nothing", name);
-}
-
 static void check_plant_def(const frond_plant_def* def) {
     check_def(def, 'P', "plant");
     check_vec(def->position, "def.position [m]");
-    check_rotation(Quat(def->rotation.w, def->rotation.x, def->rotation.y, def->rotation.z), "def.rotation");
-    check_row(number_of(def->mechanics), FROND_MECHANICS_COUNT, "def.mechanics");
-    check_row(number_of(def->integrator), FROND_INTEGRATOR_COUNT, "def.integrator");
-    check_row(number_of(def->collision), FROND_COLLISION_COUNT, "def.collision");
-    check_row(number_of(def->tuning.linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.tuning.linear_solver");
-    check_row(number_of(def->tuning.mass), FROND_MASS_COUNT, "def.tuning.mass");
+    checked_rotation(def->rotation, "def.rotation");
+    check_row(def->mechanics, FROND_MECHANICS_COUNT, "def.mechanics");
+    check_row(def->integrator, FROND_INTEGRATOR_COUNT, "def.integrator");
+    check_row(def->collision, FROND_COLLISION_COUNT, "def.collision");
+    check_row(def->tuning.linear_solver, FROND_LINEAR_SOLVER_COUNT, "def.tuning.linear_solver");
+    check_row(def->tuning.mass, FROND_MASS_COUNT, "def.tuning.mass");
     check_range(def->element_order, 1, HIGHEST_ORDER, "def.element_order");
     check_range(def->tuning.newton_iterations, 1, 100, "def.tuning.newton_iterations");
     check_range(def->tuning.newton_tolerance, 0, 1, "def.tuning.newton_tolerance");
@@ -39,7 +28,7 @@ static void check_plant_def(const frond_plant_def* def) {
     check_range(def->material_damping, 0, 100, "def.material_damping");
     check_range(def->tuning.spectral_radius, 0, 1, "def.tuning.spectral_radius");
     check_range(def->root_height, -LARGEST_COORDINATE, LARGEST_COORDINATE, "def.root_height [m]");
-    check_effects(def->effects);
+    check_effects(def->effects, "def.effects");
 }
 
 // Returns the capsule that ends at a chain node.
@@ -52,25 +41,18 @@ static int capsule_of(const Plant& plant, int node) {
 extern "C" {
 
 frond_result frond_plant_create(frond_world world, frond_model model, const frond_plant_def* def, frond_plant* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         World& w = get(world);
         const std::shared_ptr<const Model> m = get(model);
         check_plant_def(def);
         PlantBody* body = add_plant(w, create_plant(m, *def), def->group, def->mask, def->starts_asleep);
-        body->handle.id = plant_slots().insert(body);
-        if (!body->handle.id) {
-            remove_plant(w, body);
-            fail(FROND_RESULT_OUT_OF_MEMORY, "too many plants; destroy some");
-        }
-        *out = body->handle;
+        return body->handle = handle_for<frond_plant>(body, [&] { remove_plant(w, body); });
     });
 }
 
 void frond_plant_destroy(frond_plant plant) {
     call([&] {
-        PlantBody* body = plant_slots().find(plant.id);
+        PlantBody* body = find(plant);
         if (!body) return;
         forget(*body);
         remove_plant(*body->world, body);
@@ -78,20 +60,18 @@ void frond_plant_destroy(frond_plant plant) {
 }
 
 bool frond_plant_is_valid(frond_plant plant) {
-    return plant_slots().find(plant.id) != nullptr;
+    return find(plant) != nullptr;
 }
 
 bool frond_plant_is_awake(frond_plant plant) {
-    const PlantBody* body = plant_slots().find(plant.id);
+    const PlantBody* body = find(plant);
     return body && !body->rest.asleep;
 }
 
 frond_result frond_plant_get_detail(frond_plant plant, frond_detail* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = FROND_DETAIL_FULL;
+    return give(out, [&] {
         const PlantBody& body = get(plant);
-        *out = detail_of(*body.world, body);
+        return detail_of(*body.world, body);
     });
 }
 
@@ -100,14 +80,14 @@ frond_result frond_plant_wake(frond_plant plant) {
 }
 
 void* frond_plant_get_user(frond_plant plant) {
-    const PlantBody* body = plant_slots().find(plant.id);
+    const PlantBody* body = find(plant);
     return body ? body->plant->input.user : nullptr;
 }
 
 frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects) {
     return call([&] {
         PlantBody& body = get(plant);
-        check_effects(effects);
+        check_effects(effects, "effects");
         Plant& p = awaken(body);
         p.input.effects = effects;
         p.view.surface_stale = true;
@@ -115,27 +95,21 @@ frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects) {
 }
 
 frond_result frond_plant_get_def(frond_plant plant, frond_plant_def* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
-        *out = def_of(get(plant));
-    });
+    return give(out, [&] { return def_of(get(plant)); });
 }
 
 frond_result frond_plant_set_transform(frond_plant plant, frond_vec3 position, frond_quat rotation) {
     return call([&] {
         PlantBody& body = get(plant);
         check_vec(position, "position [m]");
-        const Quat q(rotation.w, rotation.x, rotation.y, rotation.z);
-        check_rotation(q, "rotation");
-        place_plant(body, to_vec(position), q.normalized());
+        place_plant(body, to_vec(position), checked_rotation(rotation, "rotation"));
     });
 }
 
 frond_result frond_plant_reset(frond_plant plant) {
     return call([&] {
         PlantBody& body = get(plant);
-        for (const Rigid* fragment : body.fragment_bodies) rigid_slots().erase(fragment->handle.id);
+        for (const Rigid* fragment : body.fragment_bodies) slots<frond_rigid>().erase(fragment->handle.id);
         reset_plant(body);
     });
 }
@@ -143,7 +117,7 @@ frond_result frond_plant_reset(frond_plant plant) {
 frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics which) {
     return call([&] {
         PlantBody& body = get(plant);
-        check_row(number_of(which), FROND_MECHANICS_COUNT, "mechanics");
+        check_row(which, FROND_MECHANICS_COUNT, "mechanics");
         if (body.plant->input.supports && !mechanics(which).moves_chain)
             fail(FROND_RESULT_UNSUPPORTED,
                  "supports hold rods, not tets; take them away by frond_plant_set_support with null first");
@@ -157,30 +131,27 @@ frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics which)
 frond_result frond_plant_set_integrator(frond_plant plant, frond_integrator integrator) {
     return call([&] {
         PlantBody& body = get(plant);
-        check_row(number_of(integrator), FROND_INTEGRATOR_COUNT, "integrator");
+        check_row(integrator, FROND_INTEGRATOR_COUNT, "integrator");
         awaken(body).input.settings.integrator = integrator;
     });
 }
 
 int frond_plant_get_fragment_count(frond_plant plant) {
-    const PlantBody* body = plant_slots().find(plant.id);
+    const PlantBody* body = find(plant);
     return body ? int(body->fragment_bodies.size()) : 0;
 }
 
 frond_result frond_plant_get_fragment(frond_plant plant, int fragment, frond_fragment* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         const PlantBody& body = get(plant);
         const int count = int(body.fragment_bodies.size());
         if (fragment < 0 || fragment >= count)
             fail(FROND_RESULT_BAD_ARGUMENT, "fragment is %d; %d fragments of this plant have come off", fragment,
                  count);
         Rigid& rigid = *body.fragment_bodies[size_t(fragment)];
-        if (!rigid.handle.id) rigid.handle.id = rigid_slots().insert(&rigid);
-        if (!rigid.handle.id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many rigid bodies; destroy some");
+        if (!rigid.handle.id) rigid.handle = handle_for<frond_rigid>(&rigid);
         const Fragment& broken = body.plant->state.fragments[size_t(fragment)];
-        *out = {rigid.handle, capsule_of(*body.plant, broken.node), broken.mass};
+        return frond_fragment{rigid.handle, capsule_of(*body.plant, broken.node), broken.mass};
     });
 }
 

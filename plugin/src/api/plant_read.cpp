@@ -49,9 +49,7 @@ static void make_surface(PlantBody& body) {
 extern "C" {
 
 frond_result frond_plant_get_previous_positions(frond_plant plant, const float** out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = nullptr;
+    return give(out, [&] {
         PlantBody& body = get(plant);
         Plant& p = *body.plant;
         if (!p.view.previous) {
@@ -60,25 +58,25 @@ frond_result frond_plant_get_previous_positions(frond_plant plant, const float**
             p.view.previous->back = float(body.rest.asleep ? 0 : surfaces_back(*body.world));
         }
         make_surface(body);
-        *out = (p.view.previous->positions.empty() ? p.view.surface_positions : p.view.previous->positions).data();
+        return (p.view.previous->positions.empty() ? p.view.surface_positions : p.view.previous->positions).data();
     });
 }
 
 frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         PlantBody& body = get(plant);
         Plant& p = *body.plant;
         make_surface(body);
         const Surface& surface = p.model->surface;
-        out->positions = p.view.surface_positions.data();
-        out->normals = p.view.surface_normals.data();
-        out->uvs = surface.uvs.empty() ? nullptr : surface.uvs.front().data();
-        out->colors = surface.colors.empty() ? nullptr : surface.colors.front().data();
-        out->indices = (p.state.fragments.empty() ? surface.triangles : p.state.parting->triangles).front().data();
-        out->vertex_count = int(surface.positions.size());
-        out->triangle_count = int(surface.triangles.size());
+        frond_surface_view view = {};
+        view.positions = p.view.surface_positions.data();
+        view.normals = p.view.surface_normals.data();
+        view.uvs = surface.uvs.empty() ? nullptr : surface.uvs.front().data();
+        view.colors = surface.colors.empty() ? nullptr : surface.colors.front().data();
+        view.indices = (p.state.fragments.empty() ? surface.triangles : p.state.parting->triangles).front().data();
+        view.vertex_count = int(surface.positions.size());
+        view.triangle_count = int(surface.triangles.size());
+        return view;
     });
 }
 
@@ -98,7 +96,7 @@ frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int
 }
 
 int frond_plant_get_capsule_count(frond_plant plant) {
-    const PlantBody* body = plant_slots().find(plant.id);
+    const PlantBody* body = find(plant);
     return body ? int(body->capsules().size()) : 0;
 }
 
@@ -113,7 +111,7 @@ frond_result frond_plant_get_strains(frond_plant plant, double* out, int capsule
 }
 
 int frond_plant_get_contact_count(frond_plant plant) {
-    const PlantBody* body = plant_slots().find(plant.id);
+    const PlantBody* body = find(plant);
     return body ? int(contacts_of(*body).size()) : 0;
 }
 
@@ -127,29 +125,21 @@ frond_result frond_plant_get_contacts(frond_plant plant, frond_contact* out, int
 }
 
 frond_result frond_plant_get_air_force(frond_plant plant, frond_vec3* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
-        *out = from_vec(air_force(*look_at(get(plant)).plant));
-    });
+    return give(out, [&] { return from_vec(air_force(*look_at(get(plant)).plant)); });
 }
 
 frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         const Plant& p = *look_at(get(plant)).plant;
         const VecX& mass = node_mass_of(*p.system);
         Vec3 sum = Vec3::Zero();
         for (int i = 0; i < mass.size(); i++) sum += mass[i] * point(p.state.motion.v, i);
-        *out = from_vec(p.rotation * sum);
+        return from_vec(p.rotation * sum);
     });
 }
 
 frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         const PlantBody& body = look_at(get(plant));
         const Vec3 gravity = gravity_of(*body.world);
         const Vec3 up = gravity.norm() > 0 ? Vec3(-gravity) : Vec3(Vec3::UnitY());
@@ -158,16 +148,14 @@ frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out) {
             const Vec3 p = vertex_position(*body.plant, v);
             if (up.dot(p) > up.dot(tip)) tip = p;
         }
-        *out = from_vec(tip);
+        return from_vec(tip);
     });
 }
 
 frond_result frond_plant_get_energy(frond_plant plant, frond_energy* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         const PlantBody& body = look_at(get(plant));
-        *out = energy_of(*body.plant, gravity_of(*body.world));
+        return energy_of(*body.plant, gravity_of(*body.world));
     });
 }
 

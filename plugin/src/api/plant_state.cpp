@@ -21,7 +21,7 @@ static void check_numbers(const double* numbers, int count, const char* name) {
 extern "C" {
 
 int frond_plant_get_node_count(frond_plant plant) {
-    const PlantBody* body = plant_slots().find(plant.id);
+    const PlantBody* body = find(plant);
     return body ? node_count_of(*body->plant) : 0;
 }
 
@@ -50,7 +50,7 @@ frond_result frond_plant_set_state(frond_plant plant, const double* positions, c
 }
 
 int frond_plant_get_plastic_count(frond_plant plant) {
-    const PlantBody* body = plant_slots().find(plant.id);
+    const PlantBody* body = find(plant);
     return body ? int(plastic_of(*body->plant).size()) : 0;
 }
 

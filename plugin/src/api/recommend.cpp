@@ -179,15 +179,13 @@ frond_advice most_accurate(const Search& search, double budget) {
 }  // namespace
 
 frond_result frond_recommend(frond_model model, double error, double cpu, frond_advice* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         check_range(error, 0, 1, "error");
         check_range(cpu, 0, 1e9, "cpu [s/s]");
         if ((error > 0) == (cpu > 0))
             fail(FROND_RESULT_BAD_ARGUMENT, "error is %g and cpu %g; one of them must be above 0, the other 0", error,
                  cpu);
         const Search search = begin_search(get(model));
-        *out = error > 0 ? cheapest(search, error) : most_accurate(search, cpu);
+        return error > 0 ? cheapest(search, error) : most_accurate(search, cpu);
     });
 }

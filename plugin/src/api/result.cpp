@@ -3,6 +3,7 @@
 
 #include "api/call.hpp"
 #include "core/log.hpp"
+#include "frond/frond_robot.h"
 
 namespace frond {
 
@@ -14,31 +15,16 @@ frond_result report_failure(frond_result code, const char* text) noexcept {
     return code;
 }
 
-template <size_t COUNT>
-static const char* row_name(const char* const (&names)[COUNT], int row, const char* otherwise) {
-    return row >= 0 && row < int(COUNT) ? names[row] : otherwise;
-}
-
 }  // namespace frond
 
 using namespace frond;
 
-#define ROW_TEXT(code, text) text,
-static const char* const RESULT_TEXTS[] = {FROND_RESULTS(ROW_TEXT)};
-static const char* const MECHANICS_NAMES[] = {FROND_MECHANICS(ROW_TEXT)};
-static const char* const INTEGRATOR_NAMES[] = {FROND_INTEGRATORS(ROW_TEXT)};
-static const char* const LINEAR_SOLVER_NAMES[] = {FROND_LINEAR_SOLVERS(ROW_TEXT)};
-static const char* const MASS_NAMES[] = {FROND_MASSES(ROW_TEXT)};
-static const char* const COLLISION_NAMES[] = {FROND_COLLISIONS(ROW_TEXT)};
-static const char* const HASH_LAYOUT_NAMES[] = {FROND_HASH_LAYOUTS(ROW_TEXT)};
-static const char* const RESPONSE_NAMES[] = {FROND_RESPONSES(ROW_TEXT)};
-static const char* const SHAPE_NAMES[] = {FROND_SHAPES(ROW_TEXT)};
-static const char* const EVENT_NAMES[] = {FROND_EVENTS(ROW_TEXT)};
-static const char* const DETAIL_NAMES[] = {FROND_DETAILS(ROW_TEXT)};
-#undef ROW_TEXT
-#define EFFECT_TEXT(code, bit, text) text,
-static const char* const EFFECT_NAMES[] = {FROND_EFFECTS(EFFECT_TEXT)};
-#undef EFFECT_TEXT
+template <size_t COUNT>
+static const char* row_name(const char* const (&names)[COUNT], int row, const char* otherwise = "?") {
+    return row >= 0 && row < int(COUNT) ? names[row] : otherwise;
+}
+
+#define FROND_ROW_TEXT(code, text) text,
 
 extern "C" {
 
@@ -46,7 +32,8 @@ const char* frond_version_string(void) {
     return FROND_VERSION_STRING;
 }
 const char* frond_result_name(frond_result result) {
-    return row_name(RESULT_TEXTS, number_of(result), "unknown result");
+    static const char* const TEXTS[] = {FROND_RESULTS(FROND_ROW_TEXT)};
+    return row_name(TEXTS, number_of(result), "unknown result");
 }
 const char* frond_last_error(void) {
     return last_error;
@@ -55,39 +42,28 @@ void frond_set_log(frond_log_fn* log, void* user) {
     set_log(log, user);
 }
 
-const char* frond_mechanics_name(frond_mechanics mechanics) {
-    return row_name(MECHANICS_NAMES, number_of(mechanics), "?");
-}
-const char* frond_integrator_name(frond_integrator integrator) {
-    return row_name(INTEGRATOR_NAMES, number_of(integrator), "?");
-}
-const char* frond_linear_solver_name(frond_linear_solver solver) {
-    return row_name(LINEAR_SOLVER_NAMES, number_of(solver), "?");
-}
-const char* frond_shape_name(frond_shape shape) {
-    return row_name(SHAPE_NAMES, number_of(shape), "?");
-}
-const char* frond_mass_name(frond_mass mass) {
-    return row_name(MASS_NAMES, number_of(mass), "?");
-}
-const char* frond_collision_name(frond_collision collision) {
-    return row_name(COLLISION_NAMES, number_of(collision), "?");
-}
-const char* frond_hash_layout_name(frond_hash_layout layout) {
-    return row_name(HASH_LAYOUT_NAMES, number_of(layout), "?");
-}
-const char* frond_response_name(frond_response response) {
-    return row_name(RESPONSE_NAMES, number_of(response), "?");
-}
-const char* frond_event_name(frond_event event) {
-    return row_name(EVENT_NAMES, number_of(event), "?");
-}
-const char* frond_detail_name(frond_detail detail) {
-    return row_name(DETAIL_NAMES, number_of(detail), "?");
-}
+// Defines a function that returns the short name of a choice, from the list of its rows.
+#define FROND_NAME_FUNCTION(function, choice, ROWS)                \
+    const char* function(choice row) {                             \
+        static const char* const NAMES[] = {ROWS(FROND_ROW_TEXT)}; \
+        return row_name(NAMES, number_of(row));                    \
+    }
+FROND_NAME_FUNCTION(frond_mechanics_name, frond_mechanics, FROND_MECHANICS)
+FROND_NAME_FUNCTION(frond_integrator_name, frond_integrator, FROND_INTEGRATORS)
+FROND_NAME_FUNCTION(frond_linear_solver_name, frond_linear_solver, FROND_LINEAR_SOLVERS)
+FROND_NAME_FUNCTION(frond_shape_name, frond_shape, FROND_SHAPES)
+FROND_NAME_FUNCTION(frond_mass_name, frond_mass, FROND_MASSES)
+FROND_NAME_FUNCTION(frond_collision_name, frond_collision, FROND_COLLISIONS)
+FROND_NAME_FUNCTION(frond_hash_layout_name, frond_hash_layout, FROND_HASH_LAYOUTS)
+FROND_NAME_FUNCTION(frond_response_name, frond_response, FROND_RESPONSES)
+FROND_NAME_FUNCTION(frond_event_name, frond_event, FROND_EVENTS)
+FROND_NAME_FUNCTION(frond_detail_name, frond_detail, FROND_DETAILS)
+FROND_NAME_FUNCTION(frond_joint_name, frond_joint, FROND_JOINTS)
+
 const char* frond_effect_name(frond_effects effect) {
-    for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++)
-        if (effect == 1u << bit) return EFFECT_NAMES[bit];
+#define FROND_EFFECT_TEXT(code, bit, text) \
+    if (effect == FROND_EFFECT_##code) return text;
+    FROND_EFFECTS(FROND_EFFECT_TEXT)
     return "?";
 }
 

@@ -7,10 +7,7 @@ using namespace frond;
 
 static void check_state(const frond_rigid_state& state) {
     check_vec(state.position, "state.position [m]");
-    const frond_quat& q = state.rotation;
-    const double length = Quat(q.w, q.x, q.y, q.z).norm();
-    if (!(length > 1e-9 && length < 1e9))
-        fail(FROND_RESULT_BAD_ARGUMENT, "state.rotation has no direction; (0,0,0,1) is none");
+    checked_rotation(state.rotation, "state.rotation");
     constexpr double FASTEST = 1e6;  // [m/s] and [rad/s]
     for (double v : {state.velocity.x, state.velocity.y, state.velocity.z})
         check_range(v, -FASTEST, FASTEST, "state.velocity [m/s]");
@@ -20,11 +17,9 @@ static void check_state(const frond_rigid_state& state) {
 
 static void check_rigid_def(const frond_rigid_def* def) {
     check_def(def, 'R', "rigid");
-    const int shape = number_of(def->shape);
-    if (shape < 0 || shape >= FROND_SHAPE_COUNT)
-        fail(FROND_RESULT_BAD_ARGUMENT, "def.shape is %d; use one of frond_shape's names", shape);
+    check_row(def->shape, FROND_SHAPE_COUNT, "def.shape");
     const double size[] = {def->size.x, def->size.y, def->size.z};
-    for (int i = 0; i < size_count(frond_shape(shape)); i++) check_range(size[i], 1e-4, 1e4, "def.size [m]");
+    for (int i = 0; i < size_count(def->shape); i++) check_range(size[i], 1e-4, 1e4, "def.size [m]");
     if (def->mass != 0) check_range(def->mass, 1e-6, 1e9, "def.mass [kg]");
     check_range(def->friction, 0, 100, "def.friction");
     check_range(def->restitution, 0, 1, "def.restitution");
@@ -34,40 +29,29 @@ static void check_rigid_def(const frond_rigid_def* def) {
 extern "C" {
 
 frond_result frond_rigid_create(frond_world world, const frond_rigid_def* def, frond_rigid* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         World& w = get(world);
         check_rigid_def(def);
         Rigid* rigid = add_rigid(w, *def);
-        rigid->handle.id = rigid_slots().insert(rigid);
-        if (!rigid->handle.id) {
-            remove_rigid(w, rigid);
-            fail(FROND_RESULT_OUT_OF_MEMORY, "too many rigid bodies; destroy some");
-        }
-        *out = rigid->handle;
+        return rigid->handle = handle_for<frond_rigid>(rigid, [&] { remove_rigid(w, rigid); });
     });
 }
 
 void frond_rigid_destroy(frond_rigid rigid) {
     call([&] {
-        Rigid* found = rigid_slots().find(rigid.id);
+        Rigid* found = find(rigid);
         if (!found || found->grown_on) return;
-        rigid_slots().erase(rigid.id);
+        slots<frond_rigid>().erase(rigid.id);
         remove_rigid(*found->world, found);
     });
 }
 
 bool frond_rigid_is_valid(frond_rigid rigid) {
-    return rigid_slots().find(rigid.id) != nullptr;
+    return find(rigid) != nullptr;
 }
 
 frond_result frond_rigid_get_state(frond_rigid rigid, frond_rigid_state* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
-        *out = state_of(get(rigid));
-    });
+    return give(out, [&] { return state_of(get(rigid)); });
 }
 
 frond_result frond_rigid_set_state(frond_rigid rigid, const frond_rigid_state* state) {
@@ -87,7 +71,7 @@ frond_result frond_rigid_set_state(frond_rigid rigid, const frond_rigid_state* s
 }
 
 const void* frond_rigid_get_body(frond_rigid rigid) {
-    const Rigid* found = rigid_slots().find(rigid.id);
+    const Rigid* found = find(rigid);
     return found ? static_cast<const btCollisionObject*>(found->body.get()) : nullptr;
 }
 

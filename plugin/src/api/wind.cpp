@@ -11,11 +11,7 @@ static void check_wind_def(const frond_wind_def* def) {
         check_range(v, -FASTEST, FASTEST, "def.velocity [m/s]");
     check_range(def->turbulence, 0, 1, "def.turbulence");
     check_range(def->length_scale, 0.1, 1e4, "def.length_scale [m]");
-    const int profile = number_of(def->profile);
-    if (profile < 0 || profile >= FROND_WIND_PROFILE_COUNT)
-        fail(FROND_RESULT_BAD_ARGUMENT,
-             "def.profile is %d; use FROND_WIND_PROFILE_UNIFORM, FROND_WIND_PROFILE_LOG or FROND_WIND_PROFILE_POWER",
-             profile);
+    check_row(def->profile, FROND_WIND_PROFILE_COUNT, "def.profile");
     check_range(def->reference_height, 0.01, 1e4, "def.reference_height [m]");
     check_range(def->roughness, 1e-6, 0.5 * def->reference_height, "def.roughness [m]");
     check_range(def->exponent, 0, 1, "def.exponent");
@@ -53,18 +49,16 @@ frond_result frond_world_set_wind_field(frond_world world, frond_wind_field_fn* 
 }
 
 frond_result frond_world_get_wind_at(frond_world world, frond_vec3 point, frond_vec3* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         World& w = get(world);
         check_vec(point, "point");
-        if (!w.wind) return;
+        if (!w.wind) return frond_vec3{};
         std::vector<frond_vec3> velocities;
         if (!wind_velocities(*w.wind, up_of(gravity_of(w)), w.time, {point}, velocities))
             fail(FROND_RESULT_BAD_ARGUMENT,
                  "the wind field gave a velocity that is not finite or beyond 1000 m/s; have it "
                  "write every velocity");
-        *out = velocities[0];
+        return velocities[0];
     });
 }
 

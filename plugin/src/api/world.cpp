@@ -1,6 +1,7 @@
 // frond_world_*, and the C++ functions that attach to a host's world.
 #include "api/call.hpp"
-#include "api/robots.hpp"
+#include "api/handles.hpp"
+#include "world/robot.hpp"
 
 using namespace frond;
 
@@ -9,34 +10,27 @@ static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& de
     check_def(&def, 'W', "world");
     check_vec(def.gravity, "def.gravity");
     check_range(def.max_substep, 1e-6, 1.0, "def.max_substep");
-    if (def.effects & ~uint32_t(FROND_EFFECT_ALL))
-        fail(FROND_RESULT_BAD_ARGUMENT, "def.effects has unknown bits; use FROND_EFFECT_*");
-    check_row(number_of(def.tuning.hash_layout), FROND_HASH_LAYOUT_COUNT, "def.tuning.hash_layout");
+    check_effects(def.effects, "def.effects");
+    check_row(def.tuning.hash_layout, FROND_HASH_LAYOUT_COUNT, "def.tuning.hash_layout");
     check_range(def.tuning.hash_table_size, 0, 1e8, "def.tuning.hash_table_size");
     check_range(def.tuning.hash_cell_size, 0, 1e3, "def.tuning.hash_cell_size [m]");
-    check_row(number_of(def.response), FROND_RESPONSE_COUNT, "def.response");
+    check_row(def.response, FROND_RESPONSE_COUNT, "def.response");
     check_range(def.tuning.response_iterations, 1, 1e5, "def.tuning.response_iterations");
     check_range(def.tuning.response_tolerance, 0, 1, "def.tuning.response_tolerance");
     check_range(def.tuning.penalty_stiffness, 1e-6, 1e12, "def.tuning.penalty_stiffness [N/m]");
     check_range(def.sleep_distance, 0, 0.01, "def.sleep_distance [m]");
     std::shared_ptr<World> made = make_world(bullet, def);
     made->release.plant = [](PlantBody& body) { forget(body); };
-    made->release.rigid = [](const Rigid& rigid) { rigid_slots().erase(rigid.handle.id); };
-    made->release.robot = [](const Robot& robot) { robot_slots().erase(robot.handle); };
-    const uint64_t id = world_slots().insert(std::move(made));
-    if (!id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many worlds; destroy some");
-    return {id};
+    made->release.rigid = [](const Rigid& rigid) { slots<frond_rigid>().erase(rigid.handle.id); };
+    made->release.robot = [](const Robot& robot) { slots<frond_robot>().erase(robot.handle); };
+    return handle_for<frond_world>(std::move(made));
 }
 
 // Releases the handles of all that is in a world.
 static void forget_all(const World& world) {
     for (const auto& body : world.bodies) forget(*body);
-    for (const auto& rigid : world.rigids) rigid_slots().erase(rigid->handle.id);
-    forget_robots(world);
-}
-
-static void check_count(int given, int own, const char* name, const char* what) {
-    if (given != own) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; this world has %d %s", name, given, own, what);
+    for (const auto& rigid : world.rigids) slots<frond_rigid>().erase(rigid->handle.id);
+    for (const auto& robot : world.robots) slots<frond_robot>().erase(robot->handle);
 }
 
 static int nearest_node(const Plant& plant, const Vec3& point) {
@@ -81,23 +75,21 @@ static frond_profile full_profile(const World& world) {
 extern "C" {
 
 frond_result frond_world_create(const frond_world_def* def, frond_world* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         check_pointer(def, "def");
-        *out = open_world(nullptr, *def);
+        return open_world(nullptr, *def);
     });
 }
 
 void frond_world_destroy(frond_world world) {
     call([&] {
-        const std::shared_ptr<World> taken = world_slots().erase(world.id);
+        const std::shared_ptr<World> taken = slots<frond_world>().erase(world.id);
         if (taken) forget_all(*taken);
     });
 }
 
 bool frond_world_is_valid(frond_world world) {
-    return bool(world_slots().find(world.id));
+    return bool(find(world));
 }
 
 frond_result frond_world_step(frond_world world, double dt) {
@@ -120,8 +112,7 @@ frond_result frond_world_set_gravity(frond_world world, frond_vec3 gravity) {
 frond_result frond_world_set_effects(frond_world world, frond_effects effects) {
     return call([&] {
         World& w = get(world);
-        if (effects & ~uint32_t(FROND_EFFECT_ALL))
-            fail(FROND_RESULT_BAD_ARGUMENT, "effects has unknown bits; use FROND_EFFECT_*");
+        check_effects(effects, "effects");
         w.effects = effects;
     });
 }
@@ -135,53 +126,37 @@ frond_result frond_world_set_interpolation(frond_world world, double fraction) {
 }
 
 frond_result frond_world_get_report(frond_world world, frond_report* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
-        *out = full_report(get(world));
-    });
+    return give(out, [&] { return full_report(get(world)); });
 }
 
 frond_result frond_world_get_profile(frond_world world, frond_profile* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
-        *out = full_profile(get(world));
-    });
+    return give(out, [&] { return full_profile(get(world)); });
 }
 
 frond_result frond_world_get_state_hash(frond_world world, uint64_t* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = 0;
-        *out = state_hash(get(world));
-    });
+    return give(out, [&] { return state_hash(get(world)); });
 }
 
 frond_result frond_world_get_energy_ledger(frond_world world, frond_energy_ledger* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
-        *out = ledger_now(get(world));
-    });
+    return give(out, [&] { return ledger_now(get(world)); });
 }
 
 int frond_world_get_plant_count(frond_world world) {
-    const std::shared_ptr<World> found = world_slots().find(world.id);
+    const std::shared_ptr<World> found = find(world);
     return found ? int(found->bodies.size()) : 0;
 }
 
 frond_result frond_world_get_plants(frond_world world, frond_plant* out, int plant_count) {
     return call([&] {
         const World& w = get(world);
-        check_count(plant_count, int(w.bodies.size()), "plant_count", "plants");
+        check_count(plant_count, int(w.bodies.size()), "plant_count", "world");
         if (plant_count > 0) check_pointer(out, "out");
         for (const auto& body : w.bodies) *out++ = body->handle;
     });
 }
 
 int frond_world_get_event_count(frond_world world) {
-    const std::shared_ptr<World> found = world_slots().find(world.id);
+    const std::shared_ptr<World> found = find(world);
     if (!found) return 0;
     found->events.are_kept = true;
     return int(found->events.list.size());
@@ -190,7 +165,7 @@ int frond_world_get_event_count(frond_world world) {
 frond_result frond_world_take_events(frond_world world, frond_event_info* out, int event_count) {
     return call([&] {
         World& w = get(world);
-        check_count(event_count, int(w.events.list.size()), "event_count", "events");
+        check_count(event_count, int(w.events.list.size()), "event_count", "world");
         if (event_count > 0) check_pointer(out, "out");
         std::copy(w.events.list.begin(), w.events.list.end(), out);
         w.events.list.clear();
@@ -211,9 +186,7 @@ frond_result frond_world_shift_origin(frond_world world, frond_vec3 origin) {
 
 frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin, frond_vec3 direction, double max_distance,
                                   frond_ray_hit* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         World& w = get(world);
         check_vec(origin, "origin");
         check_vec(direction, "direction");
@@ -221,12 +194,9 @@ frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin, frond_ve
         const Vec3 from = to_vec(origin), way = to_vec(direction);
         if (!(way.norm() > 0)) fail(FROND_RESULT_BAD_ARGUMENT, "direction is zero; pass the direction of the ray");
         const RayHit hit = cast_ray(w, from, from + max_distance * way.normalized());
-        if (!hit.body) return;
-        out->plant = hit.body->handle;
-        out->capsule = hit.capsule;
-        out->node = nearest_node(*look_at(*hit.body).plant, hit.point);
-        out->point = from_vec(hit.point);
-        out->distance = (hit.point - from).norm();
+        if (!hit.body) return frond_ray_hit{};
+        const int node = nearest_node(*look_at(*hit.body).plant, hit.point);
+        return frond_ray_hit{hit.body->handle, hit.capsule, node, from_vec(hit.point), (hit.point - from).norm()};
     });
 }
 
@@ -236,11 +206,9 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 frond_result attach(btDynamicsWorld* world, const frond_world_def* def, frond_world* out) {
-    return call([&] {
-        check_pointer(out, "out");
-        *out = {};
+    return give(out, [&] {
         check_pointer(world, "world");
-        *out = open_world(world, def ? *def : frond_default_world_def());
+        return open_world(world, def ? *def : frond_default_world_def());
     });
 }
 
@@ -254,17 +222,17 @@ frond_result forget(frond_world world) {
                  "call "
                  "frond_world_destroy");
         w.is_gone = true;
-        forget_all(*world_slots().erase(world.id));
+        forget_all(*slots<frond_world>().erase(world.id));
     });
 }
 
 btDynamicsWorld* bullet_world(frond_world world) {
-    const std::shared_ptr<World> found = world_slots().find(world.id);
+    const std::shared_ptr<World> found = find(world);
     return found ? found->bullet : nullptr;
 }
 
 btCollisionObject* bullet_object(frond_plant plant) {
-    return plant_slots().find(plant.id);
+    return find(plant);
 }
 
 frond_plant plant_of(const btCollisionObject* object) {

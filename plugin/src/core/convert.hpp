@@ -12,5 +12,11 @@ inline Vec3 to_vec(const frond_vec3& p) {
 inline frond_vec3 from_vec(const Vec3& p) {
     return {p.x(), p.y(), p.z()};
 }
+inline Quat to_quat(const frond_quat& q) {
+    return Quat(q.w, q.x, q.y, q.z);
+}
+inline frond_quat from_quat(const Quat& q) {
+    return {q.x(), q.y(), q.z(), q.w()};
+}
 
 }  // namespace frond
