@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/lists.hpp"
 #include "core/union_find.hpp"
 
 namespace frond {
@@ -109,10 +110,7 @@ static void merge_equal(Joining& joining) {
         auto& list = neighbors[size_t(number[size_t(same[c])])];
         list.insert(list.end(), copies.neighbors[c].begin(), copies.neighbors[c].end());
     }
-    for (std::vector<int>& list : neighbors) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-    }
+    for (std::vector<int>& list : neighbors) sort_unique(list);
     copies.neighbors = std::move(neighbors);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cage/cage_copies.hpp"
+#include "core/lists.hpp"
 #include "core/union_find.hpp"
 
 namespace frond {
@@ -142,8 +143,7 @@ static void link(const Voxels& voxels, Pieces& pieces) {
             }
         }
     }
-    std::sort(pieces.links.begin(), pieces.links.end());
-    pieces.links.erase(std::unique(pieces.links.begin(), pieces.links.end()), pieces.links.end());
+    sort_unique(pieces.links);
 }
 
 namespace {
@@ -268,8 +268,7 @@ static void gather_scraps(Gatherer& gatherer, const std::vector<int>& in_cell) {
     for (size_t i = 0; i < in_cell.size(); ++i)
         for (int component : list_components(gatherer, in_cell[i], scrap_of[i]))
             large.push_back({component, in_cell[i]});
-    std::sort(large.begin(), large.end());
-    large.erase(std::unique(large.begin(), large.end()), large.end());
+    sort_unique(large);
     std::vector<std::array<int, 2>> first_scrap;  // host, part
     for (size_t i = 0; i < in_cell.size(); ++i) {
         if (scrap_of[i] < 0) continue;

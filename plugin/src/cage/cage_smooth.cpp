@@ -5,6 +5,7 @@
 
 #include "cage/cage_parts.hpp"
 #include "core/elementary.hpp"
+#include "core/lists.hpp"
 #include "surface/triangle_distance.hpp"
 
 namespace frond {
@@ -64,10 +65,7 @@ static void find_outside(const Cage& cage, std::vector<std::vector<int>>& outsid
         for (size_t k = 0; k < 3; ++k)
             for (size_t other : {(k + 1) % 3, (k + 2) % 3}) outside[size_t(faces[i][k])].push_back(faces[i][other]);
     }
-    for (std::vector<int>& list : outside) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-    }
+    for (std::vector<int>& list : outside) sort_unique(list);
 }
 
 // Finds for each node on the outside the nearest point of the surface that its copies carry.
@@ -204,8 +202,7 @@ void smooth_cage(const Surface& surface, const CageOptions& options, Draft& draf
         for (int e : smoother.node_tets[i])
             for (int other : cage.tets[size_t(e)])
                 if (other != int(i)) list.push_back(other);
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+        sort_unique(list);
     }
 
     // Target of each node, without constraints.

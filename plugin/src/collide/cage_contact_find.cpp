@@ -5,6 +5,7 @@
 
 #include "collide/penetration.hpp"
 #include "core/assert.hpp"
+#include "core/lists.hpp"
 #include "core/timer.hpp"
 
 namespace frond {
@@ -54,7 +55,7 @@ static void drop_doubles(std::vector<CageContact>& contacts) {
         if (high < low) std::swap(low, high);
         return !known.insert({{low, high}, true}).second;
     };
-    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_double), contacts.end());
+    remove_where(contacts, is_double);
 }
 
 SearchTimes find_cage_contacts(ContactSearch& search, const std::vector<CollisionBody>& bodies,

@@ -7,6 +7,7 @@
 #include "collide/collider.hpp"
 #include "collide/overlap.hpp"
 #include "core/assert.hpp"
+#include "core/lists.hpp"
 #include "model/model.hpp"
 #include "surface/triangle_distance.hpp"
 
@@ -16,8 +17,7 @@ namespace frond {
 static NumberLists lists_of(std::vector<std::vector<int>>& lists) {
     NumberLists packed;
     for (std::vector<int>& list : lists) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+        sort_unique(list);
         packed.numbers.insert(packed.numbers.end(), list.begin(), list.end());
         packed.start.push_back(int(packed.numbers.size()));
     }

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "collide/penetration.hpp"
+#include "core/lists.hpp"
 
 namespace frond {
 
@@ -81,8 +82,7 @@ static void gather_edges(const Collider& b, const OverlapScene& scene, const Ove
             for (const int face : b.edge_faces[size_t(edge)])
                 out.insert(out.end(), b.face_edges[size_t(face)].begin(), b.face_edges[size_t(face)].end());
     }
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
+    sort_unique(out);
 }
 
 // Computes the normals of the two faces at an edge; false unless they form a ridge.

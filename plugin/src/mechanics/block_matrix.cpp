@@ -5,6 +5,7 @@
 
 #include "core/assert.hpp"
 #include "core/lanes.hpp"
+#include "core/lists.hpp"
 
 namespace frond {
 
@@ -30,8 +31,7 @@ BlockPattern make_block_pattern(int node_count, const std::vector<std::array<int
     pattern.node_count = node_count;
     pattern.start.push_back(0);
     for (auto& rows : neighbours) {
-        std::sort(rows.begin(), rows.end());
-        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+        sort_unique(rows);
         pattern.row.insert(pattern.row.end(), rows.begin(), rows.end());
         pattern.start.push_back(int(pattern.row.size()));
     }

@@ -8,6 +8,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "mechanics/rod_elements.hpp"
 #include "mechanics/rows.hpp"
 
@@ -91,7 +92,7 @@ void rods_flow(Elements& body, const VecX& x, double h) {
             hardening += share * (flow.hardening - hardening);
             return true;
         };
-        flows.erase(std::remove_if(flows.begin(), flows.end(), dissipates), flows.end());
+        remove_where(flows, dissipates);
     }
     for (const Flow& flow : flows) give_set(elements.segments[flow.segment], flow.from);
 }

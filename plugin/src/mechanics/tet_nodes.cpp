@@ -1,5 +1,6 @@
 // In: tets by their corners. Out: their nodes for elements of an order.
 #include "mechanics/tet_nodes.hpp"
+#include "core/lists.hpp"
 
 #include <algorithm>
 
@@ -16,8 +17,7 @@ TetNodes make_tet_nodes(int corner_count, const std::vector<Tet>& tets, int orde
         std::sort(tet.begin(), tet.end());
         for (const auto& [a, b] : TET_EDGES) nodes.edges.push_back({tet[size_t(a)], tet[size_t(b)]});
     }
-    std::sort(nodes.edges.begin(), nodes.edges.end());
-    nodes.edges.erase(std::unique(nodes.edges.begin(), nodes.edges.end()), nodes.edges.end());
+    sort_unique(nodes.edges);
 
     for (const Tet& tet : ordered) {
         QuadraticTet ten;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cage/tet_geometry.hpp"
+#include "core/lists.hpp"
 #include "skeleton/organ_correct.hpp"
 
 namespace frond {
@@ -44,8 +45,7 @@ std::vector<uint8_t> find_root_nodes(const Model& model) {
     }
     std::vector<uint8_t> root(model.cage.nodes.size(), 0);
     for (size_t node = 0; node < corners.size(); node++) {
-        std::sort(corners[node].begin(), corners[node].end());
-        corners[node].erase(std::unique(corners[node].begin(), corners[node].end()), corners[node].end());
+        sort_unique(corners[node]);
         hold_foot(model.cage, foot[node], corners[node], root);
     }
     return root;
@@ -64,8 +64,7 @@ static void embed_chain(Model& model) {
         // A node that is nearest to no vertex takes its parent's tets (parents come first).
         const int parent = model.chain.nodes[i].parent;
         if (tets[i].empty()) tets[i] = parent >= 0 ? tets[size_t(parent)] : model.embedding.tet;
-        std::sort(tets[i].begin(), tets[i].end());
-        tets[i].erase(std::unique(tets[i].begin(), tets[i].end()), tets[i].end());
+        sort_unique(tets[i]);
         double deepest = -INFINITY;
         for (int tet : tets[i]) {
             const auto weights =

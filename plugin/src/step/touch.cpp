@@ -8,6 +8,7 @@
 #include "contact/contact_rows.hpp"
 #include "contact/find_contacts.hpp"
 #include "contact/find_plant_contacts.hpp"
+#include "core/lists.hpp"
 #include "core/timer.hpp"
 #include "step/report.hpp"
 
@@ -43,13 +44,11 @@ void wake_touched(World& world, double h) {
     }
     const auto sleeps = [](const PlantBody* body) { return body->rest.asleep; };
     const auto of_sleeper = [&](const Contact& contact) { return sleeps(contact.plant); };
-    world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(), of_sleeper),
-                         world.contacts.end());
+    remove_where(world.contacts, of_sleeper);
     const auto with_sleeper = [&](const PlantContact& contact) {
         return std::any_of(contact.plants.begin(), contact.plants.end(), sleeps);
     };
-    world.plant_contacts.erase(std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(), with_sleeper),
-                               world.plant_contacts.end());
+    remove_where(world.plant_contacts, with_sleeper);
 }
 
 // Marks the plants that contacts and bonds push.
@@ -105,14 +104,9 @@ void note_touches(World& world) {
 
 void mark_touched(World& world) {
     const auto sways = [](const PlantBody* body) { return body->plant->state.modal != nullptr; };
-    world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(),
-                                        [&](const Contact& contact) { return sways(contact.plant); }),
-                         world.contacts.end());
-    world.plant_contacts.erase(std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(),
-                                              [&](const PlantContact& c) {
-                                                  return sways(c.plants[0]) || sways(c.plants[1]) || !is_by_the_same(c);
-                                              }),
-                               world.plant_contacts.end());
+    remove_where(world.contacts, [&](const Contact& contact) { return sways(contact.plant); });
+    remove_where(world.plant_contacts,
+                 [&](const PlantContact& c) { return sways(c.plants[0]) || sways(c.plants[1]) || !is_by_the_same(c); });
     for (PlantBody* body : world.awake) {
         body->plant->state.is_touched = body->plant->step.is_pressed = body->plant->state.is_entangled = false;
         body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;
