@@ -75,11 +75,7 @@ void decompress(Plant& plant) {
     drop(plant.state.away);
     motion.v = VecX::Zero(motion.x.size());
     motion.pinned.assign(size_t(motion.x.size() / 3), 0);
-    if (plant.input.pinned.empty()) {
-        plant.input.pinned = plant.input.foot->pinned;
-        plant.input.anchor = plant.input.foot->anchor;
-        plant.input.pin_target = plant.input.foot->pin_target;
-    }
+    if (plant.input.pinned.empty()) static_cast<Pins&>(plant.input) = *plant.input.foot;
     plant.input.pins_changed = true;
     apply_pins(plant);
     update_chain(plant);

@@ -7,6 +7,7 @@
 #include "calibration/calibration.hpp"
 #include "calibration/sway_frequency.hpp"
 #include "core/assert.hpp"
+#include "core/convert.hpp"
 #include "plant/pins.hpp"
 #include "plant/touch.hpp"
 
@@ -199,31 +200,17 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     plant->size = float(plant->model->surface.size());
     plant->nodes = shared_of<CageNodes>(plant->model, def.element_order,
                                         [&] { return make_nodes(plant->model->cage, def.element_order); });
-    plant->input.mass = def.tuning.mass;
-    plant->input.settings.integrator = def.integrator;
-    plant->input.settings.linear_solver = def.tuning.linear_solver;
-    plant->input.settings.newton_iterations = def.tuning.newton_iterations;
-    plant->input.settings.newton_tolerance = def.tuning.newton_tolerance;
-    plant->input.settings.max_iterations = def.tuning.linear_iterations;
-    plant->input.settings.tolerance = def.tuning.linear_tolerance;
-    plant->input.settings.mass_damping = def.mass_damping;
-    plant->input.settings.stiffness_damping = def.stiffness_damping;
-    plant->input.material_damping = def.material_damping;
-    plant->input.settings.spectral_radius = def.tuning.spectral_radius;
-    plant->input.max_substeps = def.tuning.max_substeps;
-    plant->input.substep_tolerance = def.tuning.substep_tolerance;
+    each_setting(def, plant->input, [](const auto& given, auto& kept) { kept = given; });
     plant->input.effects = def.effects;
     plant->input.collision = plant->model->has_own_tets ? FROND_COLLISION_CAGE : def.collision;
-    plant->position = Vec3(def.position.x, def.position.y, def.position.z);
-    plant->rotation = Quat(def.rotation.w, def.rotation.x, def.rotation.y, def.rotation.z).normalized();
+    plant->position = to_vec(def.position);
+    plant->rotation = to_quat(def.rotation).normalized();
     plant->input.user = def.user;
 
     // At rest as modelled, held by the ground.
     take_mechanics(*plant, def.mechanics);
     plant->input.foot = foot_of(*plant, def.root_height);
-    plant->input.pinned = plant->input.foot->pinned;
-    plant->input.anchor = plant->input.foot->anchor;
-    plant->input.pin_target = plant->input.foot->pin_target;
+    static_cast<Pins&>(plant->input) = *plant->input.foot;
     plant->input.stands_on_roots = def.root_height == 0;
     FROND_ASSERT(plant->size > 0);
     FROND_ASSERT(std::abs(plant->rotation.norm() - 1) < 1e-9);
@@ -238,28 +225,15 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 frond_plant_def def_of(const Plant& plant) {
     frond_plant_def def = {};
     def.cookie = FROND_DEF_COOKIE('P');
-    const Quat& q = plant.rotation;
-    def.position = {plant.position.x(), plant.position.y(), plant.position.z()};
-    def.rotation = {q.x(), q.y(), q.z(), q.w()};
+    def.position = from_vec(plant.position);
+    def.rotation = from_quat(plant.rotation);
     def.mechanics = plant.which;
     def.element_order = plant.nodes->order;
-    def.integrator = plant.input.settings.integrator;
-    def.mass_damping = plant.input.settings.mass_damping;
-    def.stiffness_damping = plant.input.settings.stiffness_damping;
-    def.material_damping = plant.input.material_damping;
+    each_setting(def, plant.input, [](auto& given, const auto& kept) { given = kept; });
     def.root_height = plant.input.foot->root_height;
     def.effects = plant.input.effects;
     def.collision = plant.input.collision;
     def.user = plant.input.user;
-    def.tuning.linear_solver = plant.input.settings.linear_solver;
-    def.tuning.linear_iterations = plant.input.settings.max_iterations;
-    def.tuning.linear_tolerance = plant.input.settings.tolerance;
-    def.tuning.mass = plant.input.mass;
-    def.tuning.newton_iterations = plant.input.settings.newton_iterations;
-    def.tuning.newton_tolerance = plant.input.settings.newton_tolerance;
-    def.tuning.spectral_radius = plant.input.settings.spectral_radius;
-    def.tuning.max_substeps = plant.input.max_substeps;
-    def.tuning.substep_tolerance = plant.input.substep_tolerance;
     return def;
 }
 

@@ -11,7 +11,14 @@ namespace frond {
 struct Follow;
 struct Plant;
 
-struct Fragment {
+// Present motion of its rigid body, and its present place: a point p of the model's frame is at turn p + shift in the
+// world.
+struct FragmentMotion {
+    Mat3 turn;
+    Vec3 shift;
+    Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();  // [m], [m/s], [rad/s]
+};
+struct Fragment : FragmentMotion {
     int node;  // chain node at the end of the capsule that broke
     // Its shape, sprung back from that at the break.
     VecX cage_x;  // all cage nodes, model frame [m]
@@ -23,11 +30,6 @@ struct Fragment {
     double mass = 0;               // [kg]
     Mat3 axes = Mat3::Identity();  // principal axes when it came off
     Vec3 moments = Vec3::Ones();   // principal moments of inertia [kg m^2]
-    Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero(),
-         angular_velocity = Vec3::Zero();  // present ones [m], [m/s], [rad/s]
-    // Present place: a point p of the model's frame is at turn p + shift in the world.
-    Mat3 turn;
-    Vec3 shift;
     Vec3 place(const Vec3& p) const { return turn * p + shift; }
     Vec3 velocity_at(const Vec3& place) const { return velocity + angular_velocity.cross(place - centre); }
 };

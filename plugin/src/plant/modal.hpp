@@ -29,16 +29,19 @@ struct ModalBasis {
 };
 ModalBasis make_modal_basis(const System& rods, const AirPieces& pieces);
 
-struct ModalMotion {
-    std::shared_ptr<const ModalBasis> modes;
+// The part of it that a snapshot keeps as it is.
+struct ModalState {
     std::array<double, 2> place = {}, speed = {};   // at the last update of the air
     std::array<double, 2> rest = {}, damping = {};  // equilibria in that air, and damping since then [1/s]
     double since = 0;                               // time since then [s]
     bool comes_to_rest = false;                     // whatever the air does, with at least half of critical damping
     bool fresh = true;                              // the air was not sampled yet
-    bool stale = true;                              // the chain is not yet where the modes put it
     BlendOut blend_out;                             // remainder of the chain's shape and motion
-    std::vector<frond_vec3> at, air;                // point and air for a query, one each
+};
+struct ModalMotion : ModalState {
+    std::shared_ptr<const ModalBasis> modes;
+    bool stale = true;                // the chain is not yet where the modes put it
+    std::vector<frond_vec3> at, air;  // point and air for a query, one each
 };
 
 // Switch a chain to modal motion and back from its present state. It must have no fragments.

@@ -55,12 +55,15 @@ struct PoolSeat {
     void leave();
 };
 
+struct Pins {
+    std::vector<uint8_t> pinned;  // one per cage node
+    VecX pin_target;              // targets of pinned cage nodes, model frame [m]
+    std::vector<int> anchor;      // chain node that holds each cage node if it is pinned
+};
+
 // How a plant is held when it is made; shared by all plants of a model that are held alike.
-struct Foot {
+struct Foot : Pins {
     double root_height;  // as in the plant's def [m]
-    std::vector<uint8_t> pinned;
-    VecX pin_target;
-    std::vector<int> anchor;
 };
 
 // The surface in the frame before the last one that was shown.
@@ -78,8 +81,15 @@ struct HostForces {
 // Returns them, made first if there are none yet.
 HostForces& forces_of(Plant& plant);
 
+// The inputs that a snapshot keeps as they are.
+struct SavedInput : Pins {
+    bool has_user_force = false;
+    bool pins_changed = true;
+    bool pins_are_own = false;  // changed by the host
+};
+
 // Inputs: what the host asked for. Only calls of the host change them.
-struct PlantInput {
+struct PlantInput : SavedInput {
     SolveSettings settings;
     double material_damping;   // share of the organs' damping ratios that is applied [-]
     double substep_tolerance;  // allowed local error of a position in a step, over the plant's size [-]
@@ -89,42 +99,59 @@ struct PlantInput {
     frond_collision collision = FROND_COLLISION_ORGANS;
     void* user = nullptr;
 
-    std::vector<uint8_t> pinned;               // one per cage node
-    VecX pin_target;                           // targets of pinned cage nodes, model frame [m]
-    std::vector<int> anchor;                   // chain node that holds each cage node if it is pinned
     std::vector<Spring> pin_springs;           // hold pinned cage nodes that are too few to hold a chain node
     std::unique_ptr<const Supports> supports;  // hold chain nodes in place of pins; null: there are none
     std::shared_ptr<const Foot> foot;          // initial pinned, pin_target and anchor
 
     std::list<Grab> grabs;
     std::unique_ptr<HostForces> forces;  // null: none yet
-    bool has_user_force = false;
-    bool pins_changed = true;
-    bool pins_are_own = false;     // changed by the host
-    bool stands_on_roots = false;  // held by the model's own root
+    bool stands_on_roots = false;        // held by the model's own root
 };
 
-// State: what a step continues from, and a snapshot keeps.
-struct PlantState {
-    Motion motion;                           // of the mechanics' nodes, model frame
-    std::unique_ptr<ModalMotion> modal;      // of a chain in modal motion; else null
-    std::unique_ptr<Elements> own_elements;  // elements of a plant that has yielded, with its plastic state; else null
-    BlendOut blend_out;                      // offset of the cage from where the mechanics have it
-    Trend trend;                             // empty with one substep
-    double stepped_by = 0;  // length of the last step, from x_good to here; 0: it was put here since [s]
-    std::vector<double>
-        fibre_give;    // lengths at which fibres pull, over their own, after an entanglement; else empty [-]
+// Visits the settings of a plant's def together with where the plant keeps them.
+template <class Def, class Input, class Visit>
+void each_setting(Def& def, Input& input, Visit&& visit) {
+    auto& solve = input.settings;
+    visit(def.integrator, solve.integrator);
+    visit(def.mass_damping, solve.mass_damping);
+    visit(def.stiffness_damping, solve.stiffness_damping);
+    visit(def.material_damping, input.material_damping);
+    visit(def.tuning.linear_solver, solve.linear_solver);
+    visit(def.tuning.linear_iterations, solve.max_iterations);
+    visit(def.tuning.linear_tolerance, solve.tolerance);
+    visit(def.tuning.mass, input.mass);
+    visit(def.tuning.newton_iterations, solve.newton_iterations);
+    visit(def.tuning.newton_tolerance, solve.newton_tolerance);
+    visit(def.tuning.spectral_radius, solve.spectral_radius);
+    visit(def.tuning.max_substeps, input.max_substeps);
+    visit(def.tuning.substep_tolerance, input.substep_tolerance);
+}
+
+// The state that a snapshot keeps as it is.
+struct SavedState {
+    Motion motion;       // of the mechanics' nodes, model frame
+    Trend trend;         // empty with one substep
+    BlendOut blend_out;  // offset of the cage from where the mechanics have it
+    // Lengths at which fibres pull, over their own, after an entanglement; else empty [-].
+    std::vector<double> fibre_give;
     VecX fibre_force;  // of taut fibres on the nodes in the last step, model frame [N]; empty: all are slack
-    std::unique_ptr<AirState> air;    // null until the plant is in air
-    Vec3 blown = Vec3::Zero();        // force of the last step's air, if there are no drags to compute it from [N]
-    std::vector<Fragment> fragments;  // parts that came off
-    std::shared_ptr<Parting> parting = no_parting();  // its own only if there are fragments
-    int substeps = 1;                                 // of the next step
+    int substeps = 1;  // of the next step
     // Time left to recover from a state that no admissible load can reach; if negative, time for which the plant has
     // been caught where searches find no solution [s].
     float recovers_for = 0;
     bool is_touched = false;    // in contact, which is resolved over whole steps
     bool is_entangled = false;  // deep in itself or another plant; crossed leaves come apart only by being stretched
+};
+
+// State: what a step continues from, and a snapshot keeps.
+struct PlantState : SavedState {
+    std::unique_ptr<ModalMotion> modal;      // of a chain in modal motion; else null
+    std::unique_ptr<Elements> own_elements;  // elements of a plant that has yielded, with its plastic state; else null
+    double stepped_by = 0;            // length of the last step, from x_good to here; 0: it was put here since [s]
+    std::unique_ptr<AirState> air;    // null until the plant is in air
+    Vec3 blown = Vec3::Zero();        // force of the last step's air, if there are no drags to compute it from [N]
+    std::vector<Fragment> fragments;  // parts that came off
+    std::shared_ptr<Parting> parting = no_parting();  // its own only if there are fragments
     bool is_compressed = false;
     // Compressed state, while all members above that a step changes are empty: displacements of the mechanics' nodes
     // from the modelled shape [m]; empty: none.

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cage/tet_geometry.hpp"
+#include "core/lists.hpp"
 #include "plant/sheath.hpp"
 
 namespace frond {
@@ -17,8 +18,7 @@ static std::vector<std::vector<int>> tets_of_capsules(const Model& model) {
         for (size_t e = 0; own.empty() && e < model.cage.tets.size(); ++e)
             if (model.cage.tet_organ[e] == nodes[size_t(capsule[1])].organ) own.push_back(int(e));
         if (own.empty()) own = model.embedding.tet;
-        std::sort(own.begin(), own.end());
-        own.erase(std::unique(own.begin(), own.end()), own.end());
+        sort_unique(own);
         tets.push_back(std::move(own));
     }
     return tets;

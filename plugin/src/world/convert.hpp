@@ -15,6 +15,9 @@ inline namespace FROND_BULLET_PRECISION {
 inline btVector3 to_bullet(const Vec3& v) {
     return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z()));
 }
+inline btQuaternion to_bullet(const Quat& q) {
+    return btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w()));
+}
 inline Vec3 from_bullet(const btVector3& v) {
     return Vec3(double(v.x()), double(v.y()), double(v.z()));
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/lists.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -77,10 +78,10 @@ void forget_events(World& world, const PlantBody& body) {
     const auto is_its = [&](const frond_event_info& event) {
         return event.plant.id == body.handle.id || event.other.id == body.handle.id;
     };
-    list.erase(std::remove_if(list.begin(), list.end(), is_its), list.end());
+    remove_where(list, is_its);
     std::vector<Events::Touching>& touching = world.events.touching;
     const auto has_it = [&](const Events::Touching& who) { return who.plant == &body || who.other == &body; };
-    touching.erase(std::remove_if(touching.begin(), touching.end(), has_it), touching.end());
+    remove_where(touching, has_it);
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/lists.hpp"
 #include "world/is_in.hpp"
 
 namespace frond {
@@ -17,7 +18,7 @@ void give_gravity(GravityAhead& ahead, btRigidBody& body, double h) {
 // Forgets bodies that the host has taken out of its world, without dereferencing them.
 static void forget_gone(GravityAhead& ahead, const btCollisionWorld& world) {
     const auto is_gone = [&](const GravityAhead::Held& held) { return !is_in(world, held.body); };
-    ahead.bodies.erase(std::remove_if(ahead.bodies.begin(), ahead.bodies.end(), is_gone), ahead.bodies.end());
+    remove_where(ahead.bodies, is_gone);
 }
 
 void hold_gravity(GravityAhead& ahead, const btCollisionWorld& world) {

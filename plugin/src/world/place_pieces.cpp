@@ -19,11 +19,7 @@ btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
     const Vec3 chord = end - begin, axis = chord.normalized();
     const btVector3 middle = to_bullet(0.5 * (begin + end));
     if (axis == Vec3::Zero()) return btTransform(btQuaternion::getIdentity(), middle);
-    if (!(axis.y() > BACK)) {
-        const Quat turn = turn_between(Vec3::UnitY(), axis);
-        return btTransform(btQuaternion(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), btScalar(turn.w())),
-                           middle);
-    }
+    if (!(axis.y() > BACK)) return btTransform(to_bullet(turn_between(Vec3::UnitY(), axis)), middle);
     const double over = 1 / (1 + axis.y()), across = -axis.x() * axis.z() * over;
     const btScalar x = btScalar(axis.x()), y = btScalar(axis.y()), z = btScalar(axis.z());
     return btTransform(btMatrix3x3(btScalar(1 - axis.x() * axis.x() * over), x, btScalar(across),  //

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/assert.hpp"
+#include "core/lists.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
 #include "world/world.hpp"
@@ -11,10 +12,6 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-btQuaternion quat_to_bullet(const Quat& q) {
-    return btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w()));
-}
-
 // Removes a plant from its place: wakes what leaned on it, and drops its contacts.
 void leave_place(World& world, PlantBody& body) {
     wake(body);
@@ -22,12 +19,11 @@ void leave_place(World& world, PlantBody& body) {
     for (const Contact& contact : world.contacts)
         if (contact.plant == &body) contact.other->activate();
     const auto is_its = [&](const Contact& contact) { return contact.plant == &body; };
-    world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(), is_its), world.contacts.end());
+    remove_where(world.contacts, is_its);
     const auto has_it = [&](const PlantContact& contact) {
         return contact.plants[0] == &body || contact.plants[1] == &body;
     };
-    world.plant_contacts.erase(std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(), has_it),
-                               world.plant_contacts.end());
+    remove_where(world.plant_contacts, has_it);
     body.grown_in = nullptr;
     body.new_for = 1;
 }
@@ -41,7 +37,7 @@ void place_plant(PlantBody& body, const Vec3& position, const Quat& rotation) {
     leave_place(world, body);
     end_sway(body);
     const Quat turn = rotation * plant.rotation.conjugate();
-    const btTransform by(quat_to_bullet(turn), to_bullet(position - turn * plant.position));
+    const btTransform by(to_bullet(turn), to_bullet(position - turn * plant.position));
     for (Rigid* fragment : body.fragment_bodies) {
         btRigidBody& rigid = *fragment->body;
         rigid.setLinearVelocity(by.getBasis() * rigid.getLinearVelocity());
@@ -55,7 +51,7 @@ void place_plant(PlantBody& body, const Vec3& position, const Quat& rotation) {
     plant.rotation = rotation;
     plant.view.surface_stale = true;
     if (plant.view.previous) plant.view.previous->positions.clear();
-    body.setWorldTransform(btTransform(quat_to_bullet(rotation), to_bullet(position)));
+    body.setWorldTransform(btTransform(to_bullet(rotation), to_bullet(position)));
     body.setInterpolationWorldTransform(body.getWorldTransform());
     enter_anew(body);
 }

@@ -161,9 +161,7 @@ PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Pl
     m_collisionShape = hull->rest.get();
 
     // Placed once: the capsules move inside the plant's frame.
-    const Quat& q = plant->rotation;
-    const btQuaternion rotation(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w()));
-    setWorldTransform(btTransform(rotation, to_bullet(plant->position)));
+    setWorldTransform(btTransform(to_bullet(plant->rotation), to_bullet(plant->position)));
     setInterpolationWorldTransform(getWorldTransform());
 
     // Kinematic, or Bullet's islands would merge over the plant's whole box; no response, but seen by queries.

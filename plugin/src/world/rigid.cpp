@@ -10,10 +10,7 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 static btTransform frame_of(const frond_rigid_state& state) {
-    const frond_quat& q = state.rotation;
-    const Quat turn = Quat(q.w, q.x, q.y, q.z).normalized();
-    return btTransform(btQuaternion(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), btScalar(turn.w())),
-                       to_bullet(to_vec(state.position)));
+    return btTransform(to_bullet(to_quat(state.rotation).normalized()), to_bullet(to_vec(state.position)));
 }
 
 // A row for each name in FROND_SHAPES: how many sizes it has, and Bullet's shape of those.

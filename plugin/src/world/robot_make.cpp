@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/convert.hpp"
 #include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -14,11 +15,6 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 namespace {
-
-btQuaternion to_bullet(const Quat& q) {
-    return btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w()));
-}
-using frond::to_bullet;
 
 UrdfFrame inverse(const UrdfFrame& frame) {
     return {frame.turn.conjugate() * -frame.origin, frame.turn.conjugate()};
@@ -133,8 +129,7 @@ std::unique_ptr<Robot> make_robot(World& world, UrdfTree tree, const frond_robot
     robot->body = lend<btMultiBody>(*robot, int(robot->links.size()) - 1, btScalar(is_fixed ? 0 : base.mass),
                                     to_bullet(base.inertia), is_fixed, false);
     btMultiBody& body = *robot->body;
-    const frond_quat& q = def.rotation;
-    UrdfFrame placed = {Vec3(def.position.x, def.position.y, def.position.z), Quat(q.w, q.x, q.y, q.z).normalized()};
+    UrdfFrame placed = {to_vec(def.position), to_quat(def.rotation).normalized()};
     if (floats) placed = placed * robot->tree.links.front().frame;
     const UrdfFrame frame = placed * base.centre;
     body.setBaseWorldTransform(btTransform(to_bullet(frame.turn), to_bullet(frame.origin)));

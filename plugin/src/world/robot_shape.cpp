@@ -34,9 +34,7 @@ static std::unique_ptr<btCollisionShape> make_shape(const UrdfTree& tree, const 
 }
 
 static btTransform to_bullet(const UrdfFrame& frame) {
-    const Quat& q = frame.turn;
-    return btTransform(btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())),
-                       to_bullet(frame.origin));
+    return btTransform(to_bullet(frame.turn), to_bullet(frame.origin));
 }
 
 bool make_shapes(const UrdfTree& tree, const UrdfLink& link, const UrdfFrame& centre, RobotLink& out) {

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/assert.hpp"
+#include "core/lists.hpp"
 #include "core/union_find.hpp"
 #include "world/convert.hpp"
 #include "world/show.hpp"
@@ -92,8 +93,7 @@ void compress_looked_at(World& world) {
         body->is_looked_at = false;
         return true;
     };
-    world.looked_at.erase(std::remove_if(world.looked_at.begin(), world.looked_at.end(), is_done),
-                          world.looked_at.end());
+    remove_where(world.looked_at, is_done);
 }
 
 PlantBody& look_at(PlantBody& body) {
@@ -200,7 +200,7 @@ void put_to_sleep(World& world) {
             add_event(world, FROND_EVENT_FELL_ASLEEP, *world.taking_part[i]);
         }
     const auto sleeps = [](const PlantBody* body) { return body->rest.asleep; };
-    world.awake.erase(std::remove_if(world.awake.begin(), world.awake.end(), sleeps), world.awake.end());
+    remove_where(world.awake, sleeps);
     hide_sleepers_again(world);
 }
 

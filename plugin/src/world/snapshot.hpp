@@ -9,10 +9,8 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 struct SavedContact {
-    int plant, capsule, other;
-    double along, across, gap, friction;
-    Vec3 on_plant, on_other, normal, impulse;
-    Foreseen foreseen;
+    int plant, other;
+    Contact contact;  // without its pointers, and what only a running step needs
 };
 struct SavedPlantContact {
     std::array<int, 2> plants;
@@ -29,34 +27,20 @@ struct SavedGrownIn {
 };
 struct SavedFragment {
     int node;
-    Mat3 turn;
-    Vec3 shift, centre, velocity, angular_velocity;
-};
-struct SavedModal {
-    std::array<double, 2> place, speed, rest, damping;
-    double since;
-    bool comes_to_rest, fresh;
-    BlendOut blend_out;
+    FragmentMotion motion;
 };
 
 struct SavedPlant {
     uint64_t kind;  // hash of model, place and settings, which must be the plant's
     frond_mechanics which;
-    Motion motion;
-    Trend trend;
-    BlendOut blend_out;
+    SavedInput input;
+    SavedState state;
     double lead;
-    std::vector<SavedModal> modal;  // none or one
+    std::vector<ModalState> modal;  // none or one
     bool has_own_elements;
-    std::vector<double> plastic, fibre_give;
-    std::vector<uint8_t> pinned;
-    VecX pin_target;
-    std::vector<int> anchor;
+    std::vector<double> plastic;
     std::vector<Support> supports;
-    bool pins_changed, pins_are_own, has_user_force, is_touched, is_entangled;
-    VecX user_force, chain_load, fibre_force;
-    int substeps;
-    float recovers_for;
+    HostForces forces;
     std::vector<Vec3> grab_targets;
     std::vector<SavedFragment> fragments;
     // State of its PlantBody.
@@ -72,15 +56,15 @@ struct SavedPlant {
 
 struct SavedRigid {
     bool is_plane, is_fragment;
-    std::array<btScalar, 12> frame, frame_before;  // basis by rows, origin
-    std::array<btScalar, 3> velocity, angular_velocity, velocity_before, angular_velocity_before, force, torque;
+    btTransform frame, frame_before;
+    btVector3 velocity, angular_velocity, velocity_before, angular_velocity_before, force, torque;
     int activation;
     btScalar still;
     bool has_left;
 };
 struct SavedAhead {
     int body;
-    std::array<btScalar, 3> force;
+    btVector3 force;
 };
 struct SavedBond {
     int vertex;

@@ -8,6 +8,15 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
+static void visit(Archive& a, btVector3& v) {
+    a.numbers<btScalar>(v, 3);
+}
+
+static void visit(Archive& a, btTransform& frame) {
+    for (int row = 0; row < 3; row++) a(frame.getBasis()[row]);
+    a(frame.getOrigin());
+}
+
 static void visit(Archive& a, Foreseen::Give& give) {
     a(give.to.link), a.one_of(give.to.kind, Foreseen::KIND_COUNT), a(give.work);
 }
@@ -20,8 +29,9 @@ static void visit_foreseen(Archive& a, Foreseen& foreseen) {
     a(foreseen.parts), a(foreseen.place), a(foreseen.most_friction);
 }
 
-static void visit(Archive& a, SavedContact& c) {
-    a(c.plant), a(c.capsule), a(c.other), a(c.along), a(c.across), a(c.gap), a(c.friction);
+static void visit(Archive& a, SavedContact& saved) {
+    Contact& c = saved.contact;
+    a(saved.plant), a(c.capsule), a(saved.other), a(c.along), a(c.across), a(c.gap), a(c.friction);
     a(c.on_plant), a(c.on_other), a(c.normal), a(c.impulse);
     visit_foreseen(a, c.foreseen);
 }
@@ -52,15 +62,15 @@ static void visit(Archive& a, SavedGrownIn& grown_in) {
 }
 
 static void visit(Archive& a, SavedFragment& fragment) {
-    a(fragment.node), a(fragment.turn), a(fragment.shift), a(fragment.centre), a(fragment.velocity),
-        a(fragment.angular_velocity);
+    FragmentMotion& motion = fragment.motion;
+    a(fragment.node), a(motion.turn), a(motion.shift), a(motion.centre), a(motion.velocity), a(motion.angular_velocity);
 }
 
 static void visit_blend_out(Archive& a, BlendOut& blend_out) {
     a(blend_out.offset), a(blend_out.rate), a(blend_out.time);
 }
 
-static void visit(Archive& a, SavedModal& modal) {
+static void visit(Archive& a, ModalState& modal) {
     a(modal.place), a(modal.speed), a(modal.rest), a(modal.damping), a(modal.since), a(modal.comes_to_rest),
         a(modal.fresh);
     visit_blend_out(a, modal.blend_out);
@@ -86,14 +96,16 @@ static void visit_level(Archive& a, Level& level) {
 
 static void visit(Archive& a, SavedPlant& plant) {
     a(plant.kind), a.one_of(plant.which, FROND_MECHANICS_COUNT);
-    visit_motion(a, plant.motion);
-    a(plant.trend.v_end), a(plant.trend.rate);
-    visit_blend_out(a, plant.blend_out);
-    a(plant.lead), a(plant.modal), a(plant.has_own_elements), a(plant.plastic), a(plant.fibre_give);
-    a(plant.fibre_force);
-    a(plant.pinned), a(plant.pin_target), a(plant.anchor), a(plant.supports);
-    a(plant.pins_changed), a(plant.pins_are_own), a(plant.has_user_force), a(plant.is_touched), a(plant.is_entangled);
-    a(plant.user_force), a(plant.chain_load), a(plant.substeps), a(plant.recovers_for), a(plant.grab_targets),
+    SavedInput& input = plant.input;
+    SavedState& state = plant.state;
+    visit_motion(a, state.motion);
+    a(state.trend.v_end), a(state.trend.rate);
+    visit_blend_out(a, state.blend_out);
+    a(plant.lead), a(plant.modal), a(plant.has_own_elements), a(plant.plastic), a(state.fibre_give);
+    a(state.fibre_force);
+    a(input.pinned), a(input.pin_target), a(input.anchor), a(plant.supports);
+    a(input.pins_changed), a(input.pins_are_own), a(input.has_user_force), a(state.is_touched), a(state.is_entangled);
+    a(plant.forces.on_nodes), a(plant.forces.on_chain), a(state.substeps), a(state.recovers_for), a(plant.grab_targets),
         a(plant.fragments);
     a(plant.new_for), a(plant.asleep), a(plant.still), a(plant.places), a(plant.air);
     visit_level(a, plant.level);

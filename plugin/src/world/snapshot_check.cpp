@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "world/convert.hpp"
 #include "world/snapshot.hpp"
 
 namespace frond {
@@ -47,11 +48,11 @@ bool are_flags(const std::vector<uint8_t>& bytes) {
 }
 
 // Checks a frame as Bullet has it: axes at right angles, and an origin.
-void check_frame(const std::array<btScalar, 12>& frame, const char* what) {
+void check_frame(const btTransform& frame, const char* what) {
     constexpr double SLACK = 1e-3;
-    check_numbers(frame, what, LARGEST_COORDINATE);
+    check_numbers(from_bullet(frame.getOrigin()), what, LARGEST_COORDINATE);
     Mat3 basis;
-    for (int i = 0; i < 9; i++) basis(i / 3, i % 3) = double(frame[size_t(i)]);
+    for (int i = 0; i < 3; i++) basis.row(i) = from_bullet(frame.getBasis()[i]);
     if (!((basis * basis.transpose() - Mat3::Identity()).cwiseAbs().maxCoeff() <= SLACK)) damaged(what);
 }
 
@@ -95,11 +96,12 @@ void check_foreseen(const Foreseen& foreseen, const char* what) {
 
 void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& touches, size_t object_count) {
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
-    for (const SavedContact& c : touches.with_bodies) {
-        check_index(c.plant, world.bodies.size(), "contacts");
-        check_index(c.capsule, world.bodies[size_t(c.plant)]->capsules().size(), "contacts");
-        check_index(c.other, object_count, "contacts");
-        if (PlantBody::of(objects[c.other])) damaged("contacts");
+    for (const SavedContact& saved : touches.with_bodies) {
+        const Contact& c = saved.contact;
+        check_index(saved.plant, world.bodies.size(), "contacts");
+        check_index(c.capsule, world.bodies[size_t(saved.plant)]->capsules().size(), "contacts");
+        check_index(saved.other, object_count, "contacts");
+        if (PlantBody::of(objects[saved.other])) damaged("contacts");
         for (const Vec3& v : {c.on_plant, c.on_other, c.normal, c.impulse}) check_numbers(v, "contacts");
         check_numbers(std::array{c.along, c.across, c.gap, c.friction}, "contacts");
         check_surface(c.normal, c.friction, "contacts");
@@ -128,7 +130,7 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
 }
 
 void check_motion(const SavedPlant& saved, const Becomes& becomes) {
-    const Motion& motion = saved.motion;
+    const Motion& motion = saved.state.motion;
     const History& history = motion.history;
     // Bounds places against the plant's own, both in the world. Velocities have no such bound: pins may move any
     // distance in a short step.
@@ -145,8 +147,9 @@ void check_motion(const SavedPlant& saved, const Becomes& becomes) {
     for (const VecX* numbers : {&history.x_rate, &history.v_rate})
         check_size(*numbers, has_rates ? becomes.numbers : numbers->size(), "history");
     if (history.valid && !(history.h > 0 && std::isfinite(history.h))) damaged("history");
-    check_size(saved.trend.v_end, saved.trend.v_end.size(), "trend");
-    check_size(saved.trend.rate, saved.trend.v_end.size(), "trend");
+    const Trend& trend = saved.state.trend;
+    check_size(trend.v_end, trend.v_end.size(), "trend");
+    check_size(trend.rate, trend.v_end.size(), "trend");
     check_size(saved.places, saved.places.size(), "rest");
 }
 
@@ -168,8 +171,9 @@ void check_fragments(const SavedPlant& saved, const PlantBody& body) {
              "frond_plant_break first",
              body.index);
     for (const SavedFragment& f : saved.fragments) {
-        check_numbers(f.turn.reshaped(), "fragments");
-        for (const Vec3& v : {f.shift, f.centre, f.velocity, f.angular_velocity}) check_numbers(v, "fragments");
+        const FragmentMotion& m = f.motion;
+        check_numbers(m.turn.reshaped(), "fragments");
+        for (const Vec3& v : {m.shift, m.centre, m.velocity, m.angular_velocity}) check_numbers(v, "fragments");
     }
     if (saved.which != plant.which || !saved.modal.empty())
         fail(FROND_RESULT_BAD_ARGUMENT,
@@ -187,9 +191,10 @@ void check_plastic(const SavedPlant& saved, const Becomes& becomes) {
 void check_pins(const SavedPlant& saved, const Plant& plant) {
     constexpr double SLACK = 1e-9;  // [-]
     const size_t nodes = size_t(node_count_of(plant));
-    check_size(saved.pin_target, 3 * Eigen::Index(nodes), "pins");
-    if (saved.pinned.size() != nodes || !are_flags(saved.pinned) || saved.anchor.size() != nodes) damaged("pins");
-    for (int anchor : saved.anchor) check_index(anchor, plant.model->chain.nodes.size(), "pins");
+    const Pins& pins = saved.input;
+    check_size(pins.pin_target, 3 * Eigen::Index(nodes), "pins");
+    if (pins.pinned.size() != nodes || !are_flags(pins.pinned) || pins.anchor.size() != nodes) damaged("pins");
+    for (int anchor : pins.anchor) check_index(anchor, plant.model->chain.nodes.size(), "pins");
     for (const Support& support : saved.supports) {
         check_index(support.chain_node, plant.model->chain.nodes.size(), "supports");
         for (const Vec3& v : {support.axis, support.place, support.turn})
@@ -197,8 +202,8 @@ void check_pins(const SavedPlant& saved, const Plant& plant) {
         if (!(std::abs(support.axis.squaredNorm() - 1) < SLACK)) damaged("supports");
     }
     if (!saved.supports.empty() && !mechanics(saved.which, plant.nodes->order).moves_chain) damaged("supports");
-    check_size(saved.user_force, 3 * Eigen::Index(nodes), "forces", true);
-    check_size(saved.chain_load, 6 * Eigen::Index(plant.model->chain.nodes.size()), "forces", true);
+    check_size(saved.forces.on_nodes, 3 * Eigen::Index(nodes), "forces", true);
+    check_size(saved.forces.on_chain, 6 * Eigen::Index(plant.model->chain.nodes.size()), "forces", true);
 }
 
 void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_count) {
@@ -214,20 +219,20 @@ void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_c
     check_motion(saved, become);
     check_plastic(saved, become);
     check_pins(saved, plant);
-    check_blend_out(saved.blend_out, 3 * Eigen::Index(node_count_of(plant)));
-    check_numbers(saved.fibre_give, "fibres");
-    check_size(saved.fibre_force, become.numbers, "fibres", true);
+    check_blend_out(saved.state.blend_out, 3 * Eigen::Index(node_count_of(plant)));
+    check_numbers(saved.state.fibre_give, "fibres");
+    check_size(saved.state.fibre_force, become.numbers, "fibres", true);
     if (saved.modal.size() > 1 || (!saved.modal.empty() && !mechanics(saved.which, plant.nodes->order).moves_chain))
         damaged("sway");
-    for (const SavedModal& modal : saved.modal) {
+    for (const ModalState& modal : saved.modal) {
         for (const auto* pair : {&modal.place, &modal.speed, &modal.rest, &modal.damping}) check_numbers(*pair, "sway");
         check_numbers(std::array{modal.since}, "sway");
         check_blend_out(modal.blend_out, become.numbers);
     }
     for (const Vec3& target : saved.grab_targets) check_numbers(target, "grabs", LARGEST_COORDINATE);
-    if (saved.substeps < 1 || saved.substeps > plant.input.max_substeps) damaged("substeps");
+    if (saved.state.substeps < 1 || saved.state.substeps > plant.input.max_substeps) damaged("substeps");
     if (saved.level.every < 1 || saved.level.every > 64) damaged("detail");
-    check_numbers(std::array{saved.lead, double(saved.recovers_for), saved.still, saved.level.pending,
+    check_numbers(std::array{saved.lead, double(saved.state.recovers_for), saved.still, saved.level.pending,
                              double(saved.level.distance), saved.level.disturbed},
                   "plants");
     check_numbers(saved.air, "plants");
@@ -245,8 +250,8 @@ void check_rigid(const SavedRigid& saved, const Rigid& own) {
     for (const auto* frame : {&saved.frame, &saved.frame_before}) check_frame(*frame, "rigid bodies");
     for (const auto* v :
          {&saved.velocity, &saved.angular_velocity, &saved.velocity_before, &saved.angular_velocity_before})
-        check_numbers(*v, "rigid bodies", LARGEST_COORDINATE);
-    for (const auto* v : {&saved.force, &saved.torque}) check_numbers(*v, "rigid bodies");
+        check_numbers(from_bullet(*v), "rigid bodies", LARGEST_COORDINATE);
+    for (const auto* v : {&saved.force, &saved.torque}) check_numbers(from_bullet(*v), "rigid bodies");
     if (saved.activation < ACTIVE_TAG || saved.activation > DISABLE_SIMULATION || !std::isfinite(double(saved.still)))
         damaged("rigid bodies");
 }
@@ -284,7 +289,7 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
     for (const SavedAhead& ahead : snapshot.ahead) {
         check_index(ahead.body, object_count, "gravity");
         if (!btRigidBody::upcast(objects[ahead.body])) damaged("gravity");
-        check_numbers(ahead.force, "gravity");
+        check_numbers(from_bullet(ahead.force), "gravity");
     }
     for (const int other : snapshot.others_before) check_index(other, object_count, "objects");
 }

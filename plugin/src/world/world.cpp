@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "world/convert.hpp"
 #include "world/detection.hpp"
 #include "world/fragments.hpp"
@@ -130,10 +131,7 @@ void host_deleted(PlantBody& body) {
         if (other.get() == &body || !other->rest.contacts) continue;
         auto contacts = std::make_shared<LastContacts>(*other->rest.contacts);
         std::vector<PlantContact>& plants = contacts->with_plants;
-        plants.erase(
-            std::remove_if(plants.begin(), plants.end(),
-                           [&](const PlantContact& c) { return c.plants[0] == &body || c.plants[1] == &body; }),
-            plants.end());
+        remove_where(plants, [&](const PlantContact& c) { return c.plants[0] == &body || c.plants[1] == &body; });
         other->rest.contacts = std::move(contacts);
     }
     world.effects_before = ~world.effects;
