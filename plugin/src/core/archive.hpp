@@ -144,8 +144,12 @@ void visit(Archive& archive, std::vector<T>& values) {
         archive.listed(values);
     }
 }
+// Reads control letters as blanks: texts end up in messages.
 inline void visit(Archive& archive, std::string& text) {
     archive.packed<std::string, char>(text, 1, [](std::string& t) { return t.data(); });
+    if (archive.is_reading())
+        for (char& letter : text)
+            if (uint8_t(letter) < 32) letter = ' ';
 }
 
 // Computes the FNV-1a hash of the bytes.

@@ -22,7 +22,7 @@ struct ImportResult {
 constexpr size_t IMPORT_GREETING_SIZE = 16;  // [byte]
 // Returns magic and version.
 std::string import_greeting();
-std::string encode_import(const ImportResult& result);
+std::string encode_import(ImportResult& result);
 // Returns false unless the bytes after the greeting are one whole, consistent message; everything is checked.
 bool decode_import(const char* bytes, size_t byte_count, ImportResult& result);
 

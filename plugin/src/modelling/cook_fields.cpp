@@ -1,25 +1,9 @@
 // The fields of a cooked model. Each struct is taken apart into all of its members, so that a new one does not compile
 // until it stands here.
 #include "modelling/cook.hpp"
+#include "surface/surface_fields.hpp"
 
 namespace frond {
-
-static void visit(Archive& a, Part& part) {
-    auto& [name, material, color, texture, first_triangle, triangle_count, organ] = part;
-    a(name, material, color, texture, first_triangle, triangle_count, organ);
-}
-
-static void visit(Archive& a, Texture& texture) {
-    auto& [name, bytes] = texture;
-    a(name, bytes);
-}
-
-static void visit(Archive& a, Surface& surface) {
-    auto& [positions, normals, uvs, colors, triangles, parts, textures, dropped_triangles, repaired_vertices, scale, up,
-           up_declared, scale_declared, placed] = surface;
-    a(positions, normals, uvs, colors, triangles, parts, textures, dropped_triangles, repaired_vertices, scale, up,
-      up_declared, scale_declared, placed);
-}
 
 static void visit(Archive& a, Joint& joint) {
     auto& [triangle_a, triangle_b, point_a, point_b] = joint;
