@@ -17,7 +17,7 @@
 #include "core/platform/files.hpp"
 #include "core/platform/process.hpp"
 
-extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to programs, GNU declares it
+extern char** environ;  // POSIX leaves it to programs, GNU declares it
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
