@@ -1,6 +1,9 @@
 // In: corners of a tet. Out: its volume, and the barycentric coordinates of positions.
 #include "cage/tet_geometry.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace frond {
 
 double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -23,6 +26,20 @@ std::array<double, 4> tet_weights(const std::vector<Vec3>& nodes, const Tet& tet
     const double at_b = ap.dot(ac.cross(ad)) / whole, at_c = ap.dot(ad.cross(ab)) / whole,
                  at_d = ap.dot(ab.cross(ac)) / whole;
     return {1 - at_b - at_c - at_d, at_b, at_c, at_d};
+}
+
+PlaceInTets deepest_in(const std::vector<Vec3>& nodes, const std::vector<Tet>& tets, const std::vector<int>& some,
+                       const Vec3& place) {
+    PlaceInTets best = {some.front(), {1, 0, 0, 0}};
+    double deepest = -INFINITY;
+    for (int tet : some) {
+        const auto weights = tet_weights(nodes, tets[size_t(tet)], place);
+        const double depth = *std::min_element(weights.begin(), weights.end());
+        if (!(depth > deepest)) continue;
+        deepest = depth;
+        best = {tet, weights};
+    }
+    return best;
 }
 
 }  // namespace frond

@@ -13,4 +13,13 @@ double tet_volume(const VecX& x, const Tet& tet);
 // tet.
 std::array<double, 4> tet_weights(const std::vector<Vec3>& nodes, const Tet& tet, const Vec3& place);
 
+struct PlaceInTets {
+    int tet;
+    std::array<double, 4> weights;
+};
+// Finds the tet of some of a cage's in which a position lies deepest: that with the largest least weight, and of equal
+// ones the first.
+PlaceInTets deepest_in(const std::vector<Vec3>& nodes, const std::vector<Tet>& tets, const std::vector<int>& some,
+                       const Vec3& place);
+
 }  // namespace frond

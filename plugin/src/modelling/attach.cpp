@@ -58,23 +58,16 @@ static void embed_chain(Model& model) {
     std::vector<std::vector<int>> tets(count);
     for (size_t v = 0; v < model.chain.vertex_node.size(); v++)
         tets[size_t(model.chain.vertex_node[v])].push_back(model.embedding.tet[v]);
-    model.chain_embedding.tet.resize(count);
-    model.chain_embedding.weights.resize(count);
+    model.chain_embedding = {};
     for (size_t i = 0; i < count; i++) {
         // A node that is nearest to no vertex takes its parent's tets (parents come first).
         const int parent = model.chain.nodes[i].parent;
         if (tets[i].empty()) tets[i] = parent >= 0 ? tets[size_t(parent)] : model.embedding.tet;
         sort_unique(tets[i]);
-        double deepest = -INFINITY;
-        for (int tet : tets[i]) {
-            const auto weights =
-                tet_weights(model.cage.nodes, model.cage.tets[size_t(tet)], model.chain.nodes[i].position);
-            const double depth = *std::min_element(weights.begin(), weights.end());
-            if (depth <= deepest) continue;
-            deepest = depth;
-            model.chain_embedding.tet[i] = tet;
-            model.chain_embedding.weights[i] = weights;
-        }
+        const auto [tet, weights] =
+            deepest_in(model.cage.nodes, model.cage.tets, tets[i], model.chain.nodes[i].position);
+        model.chain_embedding.tet.push_back(tet);
+        model.chain_embedding.weights.push_back(weights);
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/weigh.hpp"
+#include "core/convert.hpp"
 #include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -17,7 +18,7 @@
 namespace frond {
 
 ImportOptions import_options(const frond_model_def& def) {
-    return {def.scale, Vec3(def.up.x, def.up.y, def.up.z), {}, def.corrections_file ? def.corrections_file : "beside"};
+    return {def.scale, to_vec(def.up), {}, def.corrections_file ? def.corrections_file : "beside"};
 }
 
 // Adds the def's corrections to those of a file.
@@ -104,6 +105,12 @@ void build_body(Model& model, const frond_model_def& def) {
     tell_stiffened(model, weak, find_rest_shape(model, 1));
 }
 
+std::shared_ptr<const Model> finished(std::shared_ptr<Model> model, const Timer& total) {
+    model->ms_total = total.ms();
+    refuse_faults(*model);
+    return model;
+}
+
 static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def,
                                           const std::vector<OrganCorrection>& corrections, const Timer& total) {
     auto model = std::make_shared<Model>();
@@ -113,9 +120,7 @@ static std::shared_ptr<const Model> build(Surface surface, const frond_model_def
     find_chain(*model, def, find_organs(*model, def, corrections));
     model->ms_chain = timer.ms();
     build_body(*model, def);
-    model->ms_total = total.ms();
-    refuse_faults(*model);
-    return model;
+    return finished(std::move(model), total);
 }
 
 std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_model_def& def) {
@@ -156,9 +161,7 @@ std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_
     model->stem_source.radius = def.capsule_radius;
     model->ms_chain = timer.ms();
     build_body(*model, def);
-    model->ms_total = total.ms();
-    refuse_faults(*model);
-    return model;
+    return finished(std::move(model), total);
 }
 
 std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def& def) {
@@ -171,9 +174,7 @@ std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def
     find_chain(*model, def, find_organs(*model, def, {}));
     finish(*model);
     take_materials(*model);
-    model->ms_total = total.ms();
-    refuse_faults(*model);
-    return model;
+    return finished(std::move(model), total);
 }
 
 std::shared_ptr<const Model> build_from_file(const std::string& path, const frond_model_def& def) {

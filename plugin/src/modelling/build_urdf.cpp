@@ -2,9 +2,7 @@
 
 #include "core/decompose.hpp"
 #include "core/error.hpp"
-#include "core/timer.hpp"
 #include "io/urdf_pieces.hpp"
-#include "modelling/cook.hpp"
 #include "skeleton/organ_clues.hpp"
 #include "skeleton/topology_joints.hpp"
 
@@ -131,9 +129,7 @@ static std::shared_ptr<const Model> build(const UrdfTree& tree, const frond_mode
         build_surface(tree, pieces, turn, def, *model);
     if (is_upright) model->surface.up = Vec3::UnitZ();
     build_body(*model, def);
-    model->ms_total = total.ms();
-    refuse_faults(*model);
-    return model;
+    return finished(std::move(model), total);
 }
 
 std::shared_ptr<const Model> build_from_urdf(const std::string& path, const frond_model_def& def) {

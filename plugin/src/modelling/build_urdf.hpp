@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/timer.hpp"
 #include "io/import.hpp"
 #include "io/urdf.hpp"
 #include "model/model.hpp"
@@ -20,5 +21,7 @@ StemPlacement placement_of(const Surface& before, const Surface& after);
 void find_chain(Model& model, const frond_model_def& def, const std::vector<int>& rooted = {});
 // Makes cage, masses and moduli of a model that has its chain too.
 void build_body(Model& model, const frond_model_def& def);
+// Notes how long it took since the build began, and refuses a model of which no plant can be made.
+std::shared_ptr<const Model> finished(std::shared_ptr<Model> model, const Timer& total);
 
 }  // namespace frond

@@ -1,6 +1,4 @@
 // In: a sheath and the cage around it. Out: how its nodes and other points of it follow the cage.
-#include <algorithm>
-
 #include "cage/tet_geometry.hpp"
 #include "core/lists.hpp"
 #include "plant/sheath.hpp"
@@ -26,18 +24,8 @@ static std::vector<std::vector<int>> tets_of_capsules(const Model& model) {
 
 // Returns the attachment to the tet in which a point of the modelled shape lies deepest.
 static Attachment attach(const Vec3& place, const std::vector<int>& tets, const Model& model, const TetNodes& nodes) {
-    double deepest = -INFINITY;
-    int best = tets.front();
-    std::array<double, 4> weights = {1, 0, 0, 0};
-    for (int tet : tets) {
-        const auto there = tet_weights(model.cage.nodes, model.cage.tets[size_t(tet)], place);
-        const double depth = *std::min_element(there.begin(), there.end());
-        if (!(depth > deepest)) continue;
-        deepest = depth;
-        best = tet;
-        weights = there;
-    }
-    return tet_attachment(place_in_tet(nodes, model.cage.tets, best, weights));
+    const auto [tet, weights] = deepest_in(model.cage.nodes, model.cage.tets, tets, place);
+    return tet_attachment(place_in_tet(nodes, model.cage.tets, tet, weights));
 }
 
 // Returns where a hold is in the modelled shape [m].
