@@ -53,7 +53,7 @@ struct Search {
     }
     // Returns how many steps in a period a budget pays for.
     double steps_for(const Choice& choice, const Cost& cost, double budget) const {
-        constexpr double ROUNDED = 1 - 1e-12;
+        constexpr double ROUNDED = 1 - 1e-12;  // [-]
         return std::min(MOST_STEPS, ROUNDED * budget / cpu(choice, cost, 1));
     }
     // Returns the error, no less than that of exact steps, so that shorter steps keep it too.
@@ -111,7 +111,7 @@ struct Found {
 
 // Finds the fewest steps in a period, within some per cent and up to `most`, with an error within the bound.
 Found fewest_steps(const Search& search, const Choice& choice, const Cost& cost, double bound, double most) {
-    constexpr double GROWTH = 1.4, NEAR = 1.02;
+    constexpr double GROWTH = 1.4, NEAR = 1.02;  // of steps from try to try; error in steps that is left [-]
     Found found;
     double too_few = LEAST_STEPS;
     for (double steps = LEAST_STEPS; steps <= most && found.steps == 0; steps *= GROWTH) {

@@ -9,7 +9,7 @@ using namespace frond;
 
 namespace {
 
-constexpr double FASTEST = 1e6, STRONGEST = 1e9, FARTHEST = 1e6;
+constexpr double FASTEST = 1e6, STRONGEST = 1e9, FARTHEST = 1e6;  // [rad/s], [m/s]; [N m], [N]; [rad], [m]
 
 void check_robot_def(const frond_robot_def* def) {
     check_def(def, 'U', "robot");

@@ -16,10 +16,10 @@ static double cells_of(const BoxSet& set, double cells_per_metre) {
 }
 
 double bearable_cell_size(const BoxSet& items, const BoxSet& queries, double cell_size) {
-    constexpr double MOST = 128, LARGER = 2;
+    constexpr double MOST = 128;  // cells a box in the mean, which bounds memory and time [-]
     const double most = MOST * double(items.boxes.size() + queries.boxes.size());
     while (std::isfinite(cell_size) && !(cells_of(items, 1 / cell_size) + cells_of(queries, 1 / cell_size) <= most))
-        cell_size *= LARGER;
+        cell_size *= 2;
     return cell_size;
 }
 

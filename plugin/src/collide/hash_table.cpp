@@ -16,7 +16,7 @@ static size_t bucket_of(int64_t x, int64_t y, int64_t z, size_t table_size) {
 
 // Rounding is monotone: a point within a box is in a cell within the box's cells. Distant places end in the last ones.
 static int64_t cell_at(double place, double cell_size) {
-    constexpr double FARTHEST = 1e15;
+    constexpr double FARTHEST = 1e15;  // [cells], exact in a double and an int64_t
     if (!std::isfinite(cell_size)) return 0;
     return int64_t(std::clamp(std::floor(place / cell_size), -FARTHEST, FARTHEST));
 }

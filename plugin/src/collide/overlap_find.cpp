@@ -200,7 +200,7 @@ static double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
 // Returns whether p is in a tet. A node on a face between two tets is in both, whatever the rounding.
 static bool is_in_tet(const OverlapScene& scene, int body, const Tet& tet, const Vec3& p,
                       std::array<double, 4>& weights) {
-    constexpr double ROUNDING = 1e-12;
+    constexpr double ROUNDING = 1e-12;  // of weights [-]
     const Vec3 &a = scene.place(body, tet[0]), &b = scene.place(body, tet[1]), &c = scene.place(body, tet[2]),
                &d = scene.place(body, tet[3]);
     const double whole = six_volumes(a, b, c, d);

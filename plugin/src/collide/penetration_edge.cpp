@@ -87,7 +87,7 @@ static void gather_edges(const Collider& b, const OverlapScene& scene, const Ove
 
 // Computes the normals of the two faces at an edge; false unless they form a ridge.
 static bool make_ridge(const OverlapScene& scene, int body, int edge, Vec3& n, Vec3& m) {
-    constexpr double FLAT = 1e-4;
+    constexpr double FLAT = 1e-4;  // square of a sine below which two faces are one plane, 0.6 degrees [-]
     const Collider& collider = *scene.bodies[size_t(body)].collider;
     const auto [f, g] = collider.edge_faces[size_t(edge)];
     n = face_normal(scene, body, f);
@@ -105,7 +105,8 @@ static bool make_ridge(const OverlapScene& scene, int body, int edge, Vec3& n, V
 
 // Returns whether a direction across an edge points between the normals of its two faces, which form a ridge.
 static bool is_outward(const OverlapScene& scene, int body, int edge, const Vec3& direction) {
-    constexpr double ROUNDING = 0.01;
+    constexpr double ROUNDING =
+        0.01;  // share of the span between the normals by which a direction may lie beside it [-]
     Vec3 n, m;
     if (!make_ridge(scene, body, edge, n, m)) return false;
     const double cosine = n.dot(m), sine_squared = 1 - cosine * cosine;

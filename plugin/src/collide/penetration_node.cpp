@@ -85,8 +85,8 @@ static void leave_nearest(const OverlapScene& scene, int body, WayOut& way) {
 // Takes the nearest exit where it is much shorter. A node with few others inside, such as a leaf's tip, need not agree
 // with many, and edges along a blade would make it leave lengthwise; for other nodes the exit has to be shorter still.
 static void leave_shortly(const OverlapScene& scene, int body, size_t neighbours, WayOut& way) {
-    constexpr double SHORTER = 0.25, FAR_SHORTER = 0.125;
-    constexpr size_t FEW = 2;
+    constexpr double SHORTER = 0.25, FAR_SHORTER = 0.125;  // over the exit that is agreed on [-]
+    constexpr size_t FEW = 2;                              // others inside
     if (scene.bodies[size_t(body)].is_slim) return;
     WayOut nearest;
     nearest.point = way.point;

@@ -75,7 +75,8 @@ static double score_length(const std::vector<Vec3>& positions, int axis) {
 // Returns whether a surface lies along x, as single organs are often drawn: by far the longest along x, from the
 // origin, with its foot there.
 static bool lies_along_x(const Surface& surface, double other_score) {
-    constexpr double LONG = 2.5, MARGIN = 1;
+    constexpr double LONG = 2.5,
+                     MARGIN = 1;  // least length over width [-]; by how much a foot is clearer than on other axes
     const Eigen::AlignedBox3d box = box_of(surface.positions);
     if (box.isEmpty() || box.sizes().x() < LONG * std::max(box.sizes().y(), box.sizes().z())) return false;
     return score_foot(surface.positions, 0) > other_score + MARGIN;

@@ -25,11 +25,9 @@ static void draw_cage(PlantBody& body, btIDebugDraw& drawer) {
 // Draws a contact, and its mean force over the substep at a centimetre per newton.
 static void draw_contact(const Vec3& point, const Vec3& normal, double gap, const Vec3& impulse, double h,
                          btIDebugDraw& drawer) {
-    constexpr double METRES_A_NEWTON = 0.01;
     const btVector3 yellow(1, 1, 0), red(1, 0, 0);
     drawer.drawContactPoint(to_bullet(point), to_bullet(normal), btScalar(gap), 1, yellow);
-    if (h > 0 && !impulse.isZero(0))
-        drawer.drawLine(to_bullet(point), to_bullet(point + METRES_A_NEWTON / h * impulse), red);
+    if (h > 0 && !impulse.isZero(0)) drawer.drawLine(to_bullet(point), to_bullet(point + 0.01 / h * impulse), red);
 }
 
 void World::debugDraw(btIDebugDraw* drawer) {

@@ -13,7 +13,7 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 void add_event(World& world, frond_event event, const PlantBody& body, int capsule) {
-    constexpr size_t MOST = 65536;
+    constexpr size_t MOST = 65536;                          // events that are kept, as the header says: 3 MB
     if (!world.events.are_kept || !body.handle.id) return;  // not requested, or the host has no handle of the plant
     std::deque<frond_event_info>& list = world.events.list;
     if (list.size() == MOST) list.pop_front();

@@ -32,7 +32,7 @@ struct Core {
     btScalar radius;
 };
 
-constexpr size_t MOST_PIECES = 32;
+constexpr size_t MOST_PIECES = 32;  // of a body: each is tested against each child whose box it meets
 
 // Lists the boxes of a shape's convex parts. Returns false if it has others, or too many.
 bool list_pieces(const btCollisionShape& shape, const btTransform& frame, std::vector<Piece>& pieces, bool& has_hull) {

@@ -317,7 +317,7 @@ struct PlaceOfSeveral {
 
 // Refits the inner boxes, which otherwise only grow.
 void fit_tree(PlantShape& shape) {
-    constexpr int MOST_GROWTHS = 256;
+    constexpr int MOST_GROWTHS = 256;  // between two refits, so that these cost little a growth
     if (shape.growths < MOST_GROWTHS) return;
     for (btDbvtNode* node : shape.inner) Merge(node->childs[0]->volume, node->childs[1]->volume, node->volume);
     shape.growths = 0;

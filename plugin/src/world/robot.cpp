@@ -57,10 +57,9 @@ void shift_base(Robot& robot, const Vec3& origin) {
 
 // Closes an eighth of the remaining distance per substep, which neither overshoots nor lags much.
 void drive_to(Robot& robot, size_t link, double position, double speed, double force) {
-    constexpr double GAIN = 0.125;
     const double of_file = file_link(robot, link).speed;
     btMultiBodyJointMotor& motor = *robot.links[link].motor;
-    motor.setPositionTarget(btScalar(position), btScalar(GAIN));
+    motor.setPositionTarget(btScalar(position), btScalar(0.125));
     motor.setVelocityTarget(0, 1);
     motor.setRhsClamp(btScalar(speed > 0 ? speed : of_file > 0 ? of_file : 1));
     robot.links[link].motor_force = force_or_file(robot, link, force);

@@ -49,7 +49,7 @@ bool are_flags(const std::vector<uint8_t>& bytes) {
 
 // Checks a frame as Bullet has it: axes at right angles, and an origin.
 void check_frame(const btTransform& frame, const char* what) {
-    constexpr double SLACK = 1e-3;
+    constexpr double SLACK = 1e-3;  // [-], Bullet lets single-precision axes drift
     check_numbers(from_bullet(frame.getOrigin()), what, LARGEST_COORDINATE);
     Mat3 basis;
     for (int i = 0; i < 3; i++) basis.row(i) = from_bullet(frame.getBasis()[i]);
