@@ -9,6 +9,7 @@
 #include "core/assert.hpp"
 #include "core/convert.hpp"
 #include "plant/pins.hpp"
+#include "plant/settings.hpp"
 #include "plant/touch.hpp"
 
 namespace frond {

@@ -1,6 +1,7 @@
 // In: a world. Out: a snapshot of it.
 #include <algorithm>
 
+#include "plant/settings.hpp"
 #include "world/snapshot.hpp"
 
 namespace frond {
