@@ -297,8 +297,14 @@ TEST(Pick, ACucumberComesOffItsPeduncleAndFallsToTheGround) {
 
     for (int i = 0; i < 240; i++) play.step();
     must(frond_rigid_get_state(b.broken.rigid, &state));
-    EXPECT_LT(state.position.y, 0.05);  // lies on the ground
-    EXPECT_LT(length_of(state.velocity), 0.05);
+    // It lies on the ground, where it may rock on its round side: Bullet's bodies roll without loss.
+    const frond_vec3 lies = state.position;
+    for (int i = 0; i < 240; i++) {
+        play.step();
+        must(frond_rigid_get_state(b.broken.rigid, &state));
+        ASSERT_LT(state.position.y, 0.05);
+        ASSERT_LT(distance(state.position, lies), 0.03);
+    }
     must(frond_plant_get_tip(play.stage.plants[0], &tip));
     EXPECT_LT(distance(tip, tip_before), 0.02);  // carries less now
     EXPECT_EQ(frond_plant_get_fragment_count(play.stage.plants[0]), 1);

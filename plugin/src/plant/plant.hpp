@@ -90,6 +90,7 @@ struct SavedInput : Pins {
 
 // Inputs: what the host asked for. Only calls of the host change them.
 struct PlantInput : SavedInput {
+    bool stands_on_roots = false;  // held by the model's own root
     SolveSettings settings;
     double material_damping;   // share of the organs' damping ratios that is applied [-]
     double substep_tolerance;  // allowed local error of a position in a step, over the plant's size [-]
@@ -105,7 +106,6 @@ struct PlantInput : SavedInput {
 
     std::list<Grab> grabs;
     std::unique_ptr<HostForces> forces;  // null: none yet
-    bool stands_on_roots = false;        // held by the model's own root
 };
 
 // The state that a snapshot keeps as it is.
@@ -126,6 +126,7 @@ struct SavedState {
 
 // State: what a step continues from, and a snapshot keeps.
 struct PlantState : SavedState {
+    bool is_compressed = false;
     std::unique_ptr<ModalMotion> modal;      // of a chain in modal motion; else null
     std::unique_ptr<Elements> own_elements;  // elements of a plant that has yielded, with its plastic state; else null
     double stepped_by = 0;            // length of the last step, from x_good to here; 0: it was put here since [s]
@@ -133,7 +134,6 @@ struct PlantState : SavedState {
     Vec3 blown = Vec3::Zero();        // force of the last step's air, if there are no drags to compute it from [N]
     std::vector<Fragment> fragments;  // parts that came off
     std::shared_ptr<Parting> parting = no_parting();  // its own only if there are fragments
-    bool is_compressed = false;
     // Compressed state, while all members above that a step changes are empty: displacements of the mechanics' nodes
     // from the modelled shape [m]; empty: none.
     std::vector<float> away;

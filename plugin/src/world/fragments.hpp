@@ -1,6 +1,7 @@
 // Fragments of plants, as rigid bodies of the Bullet world.
 #pragma once
 
+#include "plant/plant.hpp"
 #include "world/rigid.hpp"
 
 namespace frond {
