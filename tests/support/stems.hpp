@@ -5,23 +5,28 @@
 
 #include "frond/frond.h"
 
-// Makes a model of stems of one material; young: 0 takes the preset's [Pa].
-inline frond_model make_stems(const frond_stem* stems, int count, double young,
-                              frond_rest rest = frond_default_model_def().rest) {
+// Makes a model of stems of one material; null takes the preset's.
+inline frond_model make_stems_of(const frond_stem* stems, int count, const frond_material* material, frond_rest rest) {
     frond_model_def def = frond_default_model_def();
     def.scale = 1;
     def.up = {0, 1, 0};
     def.rest = rest;
-    frond_organ_material organ = {"stem", {}};
-    EXPECT_EQ(frond_material_preset("stem", &organ.material), FROND_OK) << frond_last_error();
-    if (young > 0) {
-        organ.material.young = young;
+    const frond_organ_material organ = {"stem", material ? *material : frond_material{}};
+    if (material) {
         def.organs = &organ;
         def.organ_count = 1;
     }
     frond_model model = {};
     EXPECT_EQ(frond_model_from_stems(stems, count, &def, &model), FROND_OK) << frond_last_error();
     return model;
+}
+// Does so with a stem's preset; young: 0 takes the preset's [Pa].
+inline frond_model make_stems(const frond_stem* stems, int count, double young,
+                              frond_rest rest = frond_default_model_def().rest) {
+    frond_material material;
+    EXPECT_EQ(frond_material_preset("stem", &material), FROND_OK) << frond_last_error();
+    if (young > 0) material.young = young;
+    return make_stems_of(stems, count, young > 0 ? &material : nullptr, rest);
 }
 
 // A stem of 0.6 m with a side branch. It is modelled without gravity, so that it is at rest in free fall, unless it is

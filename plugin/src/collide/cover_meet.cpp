@@ -7,23 +7,14 @@
 
 namespace frond {
 
-static BoxSet::Bounds box_of(const Capsule& capsule, double margin) {
-    BoxSet::Bounds box = BoxSet::none();
-    if (capsule.radius == NOTHING) return box;
-    for (int k = 0; k < 3; ++k) {
-        box.lower[k] = std::min(capsule.begin[k], capsule.end[k]) - capsule.radius - margin;
-        box.upper[k] = std::max(capsule.begin[k], capsule.end[k]) + capsule.radius + margin;
-    }
-    return box;
-}
-
 std::vector<std::vector<uint8_t>> find_meeting_pieces(const std::vector<CoveredBody>& bodies, double margin) {
     BoxSet set;
     std::vector<std::array<int, 2>> places;  // body and region
     int group = 0;
     for (size_t b = 0; b < bodies.size(); ++b)
         for (int piece = 0; piece < bodies[b].collider->piece_count; ++piece) {
-            set.boxes.push_back(box_of((*bodies[b].capsules)[size_t(piece)], 0.5 * margin));
+            const Capsule& cover = (*bodies[b].capsules)[size_t(piece)];
+            set.boxes.push_back(cover.radius == NOTHING ? BoxSet::none() : box_around(cover, 0.5 * margin));
             set.boxes.back().group = group;
             places.push_back({int(b), piece});
             // Of a body that collides with itself each region is a group.

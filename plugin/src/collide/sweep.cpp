@@ -77,6 +77,15 @@ struct Sweep {
 
 }  // namespace
 
+BoxSet::Bounds box_around(const Capsule& capsule, double margin) {
+    BoxSet::Bounds box = BoxSet::none();
+    for (int k = 0; k < 3; ++k) {
+        box.lower[k] = std::min(capsule.begin[k], capsule.end[k]) - capsule.radius - margin;
+        box.upper[k] = std::max(capsule.begin[k], capsule.end[k]) + capsule.radius + margin;
+    }
+    return box;
+}
+
 std::vector<std::array<int, 2>> find_pairs_by_sweep(const BoxSet& set) {
     std::vector<std::array<int, 2>> pairs;
     const SortedBoxes boxes(set, axis_of_greatest_spread(set));

@@ -40,7 +40,7 @@ Vec3 velocity_as_moved(const World& world, const ContactBody& at) {
 
 void foresee(const World& world, const std::vector<ContactRow>& rows, double h) {
     for (const ContactRow& row : rows) {
-        if (!row.contact_body.link || row.parts.empty() || !pushes_back(world, *row.plants[0])) continue;
+        if (row.parts.empty() || row.impulse->isZero(0) || !pushes_back(world, *row.plants[0])) continue;
         // How the plant went on in this step, and will in the next one if all that acts on it stays as it was.
         const Vec3 now = way_of_touch(*row.plants[0]->plant, row.touches[0]) / h,
                    plant = now + change_of_velocity(*row.plants[0]->plant, row.touches[0]);

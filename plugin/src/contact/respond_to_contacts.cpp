@@ -125,7 +125,7 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
         for (const ContactRow& row : rows) impulses.push_back(*row.impulse);
         response.find(coupled.touches(), coupled.table(), settings, impulses);
         again = stop_asking(island, coupled, impulses, h);
-        for (size_t i = 0; i < rows.size(); i++)
+        for (size_t i = 0; !again && i < rows.size(); i++)
             if (rows[i].contact_body.link && !impulses[i].isZero(0))
                 rows[i].parts = coupled.parts_with_gives(i, impulses);
     }

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "collide/capsule.hpp"
+#include "collide/sweep.hpp"
 #include "world/convert.hpp"
 #include "world/plant_shape.hpp"
 #include "world/world.hpp"
@@ -47,17 +47,20 @@ void add_capsules(const PlantBody& body, const Fragment& fragment, const btTrans
 bool is_in_plant(const PlantBody& body, const Fragment& fragment) {
     constexpr double TOUCH = 0.001;  // [m]
     const Plant& plant = *body.plant;
-    std::vector<Capsule> left, fallen;
+    BoxSet boxes;
+    std::vector<Capsule> capsules;
     for (size_t i = 0; i < body.capsules().size(); i++) {
         const Fragment* of = fragment_of_chain_node(plant, size_t(plant.model->capsules[i][1]));
         if (of && of != &fragment) continue;
         const auto [begin, end] = capsule_ends(plant, i);
         const double radius = std::max(double(body.capsules()[i]->getRadius()), body.hull->flats[i].half_width);
-        (of ? fallen : left).push_back({begin, end, radius});
+        capsules.push_back({begin, end, radius});
+        boxes.boxes.push_back(box_around(capsules.back(), 0.5 * TOUCH));
+        boxes.boxes.back().group = of ? 1 : 0;
     }
-    return std::any_of(left.begin(), left.end(), [&](const Capsule& a) {
-        return std::any_of(fallen.begin(), fallen.end(),
-                           [&](const Capsule& b) { return gap_between(a, b).distance < TOUCH; });
+    const std::vector<std::array<int, 2>> pairs = find_pairs_by_sweep(boxes);
+    return std::any_of(pairs.begin(), pairs.end(), [&](const std::array<int, 2>& pair) {
+        return gap_between(capsules[size_t(pair[0])], capsules[size_t(pair[1])]).distance < TOUCH;
     });
 }
 
@@ -92,11 +95,6 @@ Rigid* add_fragment(World& world, PlantBody& body, const Fragment& fragment) {
 }
 
 }  // namespace
-
-bool has_come_off(const Plant& plant, int capsule) {
-    return !plant.state.fragments.empty() &&
-           fragment_of_chain_node(plant, size_t(plant.model->capsules[size_t(capsule)][1]));
-}
 
 void break_off(World& world, PlantBody& body, int chain_node) {
     const Fragment& fragment = break_off(*body.plant, chain_node);

@@ -12,7 +12,10 @@ void break_off(World& world, PlantBody& body, int chain_node);
 // Breaks off a capsule that is strained beyond its strength, one per substep. Returns how many came off.
 int break_overloaded(World& world, PlantBody& body);
 // Returns whether a capsule has come off with a fragment.
-bool has_come_off(const Plant& plant, int capsule);
+inline bool has_come_off(const Plant& plant, int capsule) {
+    return !plant.state.fragments.empty() &&
+           fragment_of_chain_node(plant, size_t(plant.model->capsules[size_t(capsule)][1]));
+}
 // Moves the plant's fragments to where their bodies are.
 void carry_fragments(PlantBody& body);
 // Applies the user's grabs on fragments.

@@ -95,7 +95,7 @@ std::vector<LinkLoads::Load> LinkLoads::find_loads() const {
     btAlignedObjectArray<btScalar> r;
     btAlignedObjectArray<btVector3> v;
     btAlignedObjectArray<btMatrix3x3> m;
-    Generalised jacobian(size_t(m_bodyA->getNumDofs()) + 6);
+    Generalised jacobian;
     const auto find = [&](const Foreseen::Load& of) -> Load& {
         for (Load& load : loads)
             if (load.of == of) return load;
@@ -105,6 +105,7 @@ std::vector<LinkLoads::Load> LinkLoads::find_loads() const {
         for (const Foreseen::Part& part : foreseen.parts) {
             const double size = part.impulse.norm();
             if (!(size > 0)) continue;
+            jacobian.resize(size_t(m_bodyA->getNumDofs()) + 6);
             Load& load = find({link.m_link, part.kind});
             m_bodyA->fillContactJacobianMultiDof(link.m_link, link.getWorldTransform() * to_bullet(foreseen.place),
                                                  to_bullet(-part.impulse / size), jacobian.data(), r, v, m);
@@ -248,7 +249,8 @@ std::vector<btScalar> LinkLoads::take_given() {
 
 void lend_link_loads(World& world) {
     auto* bullet = dynamic_cast<btMultiBodyDynamicsWorld*>(world.bullet);
-    if (!bullet) return;
+    // Bullet's direct solvers do not see with what velocities they begin.
+    if (!bullet || bullet->getConstraintSolver()->getSolverType() == BT_MLCP_SOLVER) return;
     std::vector<btMultiBody*> bodies;  // that are pushed
     const auto add = [&](const Foreseen& foreseen, btCollisionObject* object) {
         btMultiBodyLinkCollider* link = foreseen.parts.empty() ? nullptr : btMultiBodyLinkCollider::upcast(object);
@@ -285,9 +287,9 @@ void remove_link_loads(World& world) {
     lend_link_loads(world);
 }
 
-void host_deleted(World& world, LinkLoads& rows) {
+void host_deleted(World& world, LinkLoads& loads) {
     const auto place = std::find_if(world.link_loads.begin(), world.link_loads.end(),
-                                    [&](const auto& lent) { return lent.get() == &rows; });
+                                    [&](const auto& lent) { return lent.get() == &loads; });
     leave_to_host(*place);
     world.link_loads.erase(place);
 }
