@@ -171,6 +171,43 @@ TEST(Robot, CarriesWhatIsBondedToIt) {
     }
 }
 
+// A plant that stands bonded to any link of an arm that stands, however far away and by one bond or two, stays, and so
+// does the arm.
+TEST(Robot, StandsBondedToAPlantThatStands) {
+    const frond_model model = make_small_model(0, FROND_REST_STANDS_AS_MODELLED);
+    int bonded = 0;
+    for (const frond_mechanics mechanics : {FROND_MECHANICS_ROD, FROND_MECHANICS_TET_COROTATIONAL})
+        for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240})
+            for (int link = 1; link < 7; link++) {
+                const RobotWorld arm(FROND_SOURCE_DIR "/models/arm/arm.urdf", false, {-1, 0, 0});
+                if (link >= frond_robot_get_link_count(arm.robot)) break;
+                frond_plant_def def = frond_default_plant_def();
+                def.mechanics = mechanics;
+                frond_plant plant = {};
+                ASSERT_EQ(frond_plant_create(arm.world, model, &def, &plant), FROND_OK) << frond_last_error();
+                for (const frond_vec3& place : {frond_vec3{0, 0.6, 0}, frond_vec3{0.2, 0.45, 0}}) {
+                    if (place.x > 0 && link % 2) continue;
+                    frond_bond bond = {};
+                    const frond_result result = frond_robot_bond(plant, place, arm.robot, link, &bond);
+                    ASSERT_EQ(result, FROND_OK) << frond_last_error();
+                    bonded++;
+                }
+                frond_vec3 before = {}, after = {};
+                ASSERT_EQ(frond_plant_get_tip(plant, &before), FROND_OK);
+                for (int i = 0; i < int(1 / step); i++) ASSERT_EQ(frond_world_step(arm.world, step), FROND_OK);
+                ASSERT_EQ(frond_plant_get_tip(plant, &after), FROND_OK);
+                EXPECT_LT(length({after.x - before.x, after.y - before.y, after.z - before.z}), 0.001)
+                    << link << ", " << step;
+                for (int i = 1; i < frond_robot_get_link_count(arm.robot); i++) {
+                    frond_link_state state = {};
+                    ASSERT_EQ(frond_robot_get_link_state(arm.robot, i, &state), FROND_OK);
+                    EXPECT_LT(std::abs(state.joint_velocity), 0.01) << link << ", " << step << ", " << i;
+                }
+            }
+    EXPECT_GT(bonded, 30);
+    frond_model_destroy(model);
+}
+
 // Returns by how much the axis of a segment is before that of a bar which comes along `way` [m]; infinite where the two
 // do not pass each other.
 double before(const frond_capsule& segment, const Vec& from, const Vec& to, const Vec& way) {

@@ -1,7 +1,7 @@
 // In: rows of links whose impulses and whose plants' ways are known. Out: what the next step of Bullet is to foresee.
 #include "contact/foresee.hpp"
 
-#include <algorithm>
+#include <map>
 
 #include "contact/find_contacts.hpp"
 #include "world/convert.hpp"
@@ -39,11 +39,15 @@ Vec3 velocity_as_moved(const World& world, const ContactBody& at) {
 }
 
 void foresee(const World& world, const std::vector<ContactRow>& rows, double h) {
+    std::map<Plant*, VecX> velocities;  // ahead
     for (const ContactRow& row : rows) {
         if (row.parts.empty() || row.impulse->isZero(0) || !pushes_back(world, *row.plants[0])) continue;
-        // How the plant went on in this step, and will in the next one if all that acts on it stays as it was.
-        const Vec3 now = way_of_touch(*row.plants[0]->plant, row.touches[0]) / h,
-                   plant = now + change_of_velocity(*row.plants[0]->plant, row.touches[0]);
+        Plant& of = *row.plants[0]->plant;
+        const auto [ahead, is_new] = velocities.insert({&of, {}});
+        if (is_new) ahead->second = velocities_ahead(of);
+        // How the plant went on in this step, and will in the next one.
+        const Vec3 now = way_of_touch(of, row.touches[0]) / h,
+                   plant = velocity_of_touch(of, row.touches[0], ahead->second);
         Vec3 on = plant;
         if (row.contact) {
             const Vec3& normal = row.touch.normal;

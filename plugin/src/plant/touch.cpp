@@ -46,7 +46,7 @@ Attachment cage_attachment(const ContactSide& side) {
 bool make_touch(const Plant& plant, const Attachment& attachment, PlantTouch& touch) {
     if (!plant.step.is_sound) return false;
     touch.attachment = attachment;
-    touch.velocity = plant.rotation * attachment_velocity(attachment, plant.step.x_good, plant.state.motion.v);
+    touch.velocity = velocity_of_touch(plant, touch, plant.state.motion.v);
     return true;
 }
 
@@ -55,10 +55,18 @@ Vec3 way_of_touch(const Plant& plant, const PlantTouch& touch) {
                              attachment_place(touch.attachment, plant.step.x_good));
 }
 
-Vec3 change_of_velocity(const Plant& plant, const PlantTouch& touch) {
-    const VecX &before = plant.step.v_good, &now = plant.state.motion.v;
-    if (before.size() != now.size()) return Vec3::Zero();
-    return plant.rotation * attachment_velocity(touch.attachment, plant.step.x_good, now - before);
+VecX velocities_ahead(Plant& plant) {
+    FROND_ASSERT(plant.step.workspace);
+    const VecX& now = plant.state.motion.v;
+    VecX change;
+    if (plant.step.v_good.size() != now.size() ||
+        !go_on_changing(*plant.step.workspace, plant.input.settings, now - plant.step.v_good, change))
+        return now;
+    return now + change;
+}
+
+Vec3 velocity_of_touch(const Plant& plant, const PlantTouch& touch, const VecX& velocities) {
+    return plant.rotation * attachment_velocity(touch.attachment, plant.step.x_good, velocities);
 }
 
 bool find_compliance(Plant& plant, const Attachment& attachment, NodeCompliance& compliance) {

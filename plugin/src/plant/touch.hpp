@@ -33,8 +33,11 @@ struct PlantTouch {
 bool make_touch(const Plant& plant, const Attachment& attachment, PlantTouch& touch);
 // Returns how far it went in the step as it is now, world frame [m].
 Vec3 way_of_touch(const Plant& plant, const PlantTouch& touch);
-// Returns by how much its velocity changed in the step as it is now, world frame [m/s].
-Vec3 change_of_velocity(const Plant& plant, const PlantTouch& touch);
+// Returns the velocities of a plant's nodes at the end of the next step if all that acts on it stays as it is, model
+// frame [m/s].
+VecX velocities_ahead(Plant& plant);
+// Returns its velocity by those of the plant's nodes, world frame [m/s].
+Vec3 velocity_of_touch(const Plant& plant, const PlantTouch& touch, const VecX& velocities);
 // Finds the compliance to impulses along the world's axes; false if there is none. It is zero where all nodes of the
 // attachment are pinned.
 bool find_compliance(Plant& plant, const Attachment& attachment, NodeCompliance& compliance);

@@ -27,6 +27,11 @@ bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& im
     return dv.allFinite();
 }
 
+bool go_on_changing(Workspace& workspace, const SolveSettings& settings, const VecX& before, VecX& change) {
+    multiply_mass(*workspace.system, workspace.inertia, before, workspace.momentum);
+    return respond(workspace, settings, workspace.momentum, change);
+}
+
 double reach_of(const Workspace& workspace) {
     return workspace.reach;
 }

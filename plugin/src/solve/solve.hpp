@@ -140,6 +140,10 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
 // with the matrix of that step's last solve, so that elastic forces respond within the step; held nodes get none.
 // Returns false if there is no solution.
 bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& impulse, VecX& dv);
+// Computes by how much velocities change in a step after one that changed them by `before`, with the same loads and
+// impulses: change = A^-1 M before, since a plant resists what it is given within the step. Returns false if there is
+// no solution.
+bool go_on_changing(Workspace& workspace, const SolveSettings& settings, const VecX& before, VecX& change);
 // Returns the derivative of positions by velocities at the end of the last step [s].
 double reach_of(const Workspace& workspace);
 // Adds such velocities, and the displacements by them within the step, to the motion that the step left.
