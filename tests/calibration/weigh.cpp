@@ -83,7 +83,9 @@ TEST(Weigh, ALeafByItsFacesHoweverThickItWasDrawn) {
                 0.05 * face);
     for (const bool whole : {true, false})
         EXPECT_NEAR(build_from_surface(drawn_leaf(4e-3, whole), def)->mass(), 2 * face, 0.25 * face) << whole;
+    // A leaf that is as thick as it was drawn.
     frond_organ_material given = {"leaf", blade};
+    given.material.thickness = 4e-3;
     def.organs = &given;
     def.organ_count = 1;
     EXPECT_NEAR(build_from_surface(drawn_leaf(4e-3, true), def)->mass(), 0.05 * 0.2 * 4e-3 * blade.density,

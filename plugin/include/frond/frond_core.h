@@ -284,8 +284,9 @@ typedef struct frond_model_def {
     double cage_smoothness; /* 0 cells as they are .. 1 (default 0.5) boundary drawn close to the surface */
     frond_rest rest; /* default FROND_REST_STANDS_AS_MODELLED; tets of the caller's are taken as without gravity */
     const frond_organ_material* organs; /* override presets, by organ name or kind; the last match wins; BAD_ARGUMENT
-                                         * for one that no organ has. They are taken for measured: without hidden
-                                         * ribs and margins of stiffness */
+                                         * for one that no organ has. A young that is not the organ's own is taken
+                                         * for measured, without a margin of stiffness and without hidden ribs, a
+                                         * midrib likewise without those; no other number changes more than itself */
     int organ_count;
     /* Largest factor by which organs may be made stiffer than their materials so that the plant carries itself [-], 1
      * and more, default 3. Leaves first get the midribs that a file does not show. A plant that needs more is

@@ -52,7 +52,7 @@ namespace {
 
 // Leaves have midribs, and stalks go on within fruits; petals are stiff by the pressure of their water.
 bool hides_a_rib(const Organ& organ) {
-    return organ.kind == "blade" || organ.kind == "fruit";
+    return (organ.kind == "blade" || organ.kind == "fruit") && !organ.young_given && !organ.midrib_given;
 }
 
 // Organs whose ribs may be thickened, with the sizes that limit them.
@@ -64,7 +64,7 @@ struct Bearer {
 std::vector<Bearer> list_bearers(const Model& model, const std::vector<double>& load) {
     std::vector<Bearer> bearers(model.organs.size());
     for (size_t o = 0; o < bearers.size(); o++)
-        bearers[o].may_grow = load[o] > 0 && hides_a_rib(model.organs[o]) && !model.organs[o].material_given &&
+        bearers[o].may_grow = load[o] > 0 && hides_a_rib(model.organs[o]) &&
                               std::count(model.chain.rib_of.begin(), model.chain.rib_of.end(), int(o)) == 0;
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];

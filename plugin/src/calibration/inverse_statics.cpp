@@ -81,37 +81,50 @@ TetElements take_organ(const TetElements& all, const std::vector<int>& tet_organ
 }
 
 // Adds move' K move with each organ's own stiffness K.
-void add_work_of_tets(RestSearch& search, const VecX& move, std::vector<double>& work) {
+void add_work_of_tets(const RestSearch& search, const TetElements& elements, const VecX& move,
+                      std::vector<double>& work) {
     const std::vector<int>& tet_organ = search.model.cage.tet_organ;
     std::vector<uint8_t> has_tets(work.size(), 0);
     for (const int organ : tet_organ) has_tets[size_t(organ)] = 1;
     BlockMatrix own;
-    own.set_pattern(search.elements.pattern);
+    own.set_pattern(elements.pattern);
     VecX product;
     for (size_t organ = 0; organ < work.size(); organ++) {
         if (!has_tets[organ]) continue;
         own.set_zero();
-        search.row.add_stiffness(take_organ(search.elements, tet_organ, int(organ)), search.x, Tangent::positive, 1,
-                                 own);
+        search.row.add_stiffness(take_organ(elements, tet_organ, int(organ)), search.x, Tangent::positive, 1, own);
         own.multiply(move, product);
         work[organ] += move.dot(product);
     }
 }
 
-// Finds how an unstable plant topples, and which organs give way.
-RestOutcome find_outcome(RestSearch& search) {
+// Scales the moduli of each organ's tets.
+void scale_organs(const std::vector<int>& tet_organ, const std::vector<double>& factors, TetElements& elements) {
+    for (size_t e = 0; e < elements.tets.size(); e++) {
+        elements.mu[e] *= factors[size_t(tet_organ[e])];
+        elements.lambda[e] *= factors[size_t(tet_organ[e])];
+    }
+}
+
+// Finds how a plant whose organs are softer by their margins topples, and which of them give way. All are softened by
+// the largest margin, by which weight is then too much, so those with less become stiffer.
+RestOutcome find_outcome(RestSearch& search, const std::vector<double>& margins) {
     BlockMatrix taken;
     taken.set_pattern(search.elements.pattern);
     take_by_weight(search.elements, search.row, search.x, taken);
-    if (!search.stiffness.set(search.elements, search.held, search.row, Tangent::positive, search.x)) return {};
+    const double largest = *std::max_element(margins.begin(), margins.end());
+    std::vector<double> factors;
+    for (const double margin : margins) factors.push_back(largest / margin);
+    TetElements elements = search.elements;
+    scale_organs(search.model.cage.tet_organ, factors, elements);
+    if (!search.stiffness.set(elements, search.held, search.row, Tangent::positive, search.x)) return {};
     const Toppling toppling = find_toppling(search.stiffness, taken, search.held);
     if (toppling.mode.size() == 0) return {};
     RestOutcome outcome;
-    outcome.overload = toppling.overload;
-
-    outcome.shares =
-        find_shares(toppling, search.stiffness, taken, search.held, search.model.organs.size(),
-                    [&](const VecX& move, std::vector<double>& work) { add_work_of_tets(search, move, work); });
+    outcome.overload = largest * toppling.overload;
+    outcome.shares = find_shares(
+        toppling, search.stiffness, taken, search.held, search.model.organs.size(),
+        [&](const VecX& move, std::vector<double>& work) { add_work_of_tets(search, elements, move, work); });
     return outcome;
 }
 
@@ -167,7 +180,7 @@ bool balance(RestSearch& search, double gravity) {
     return false;
 }
 
-RestOutcome search_rest_shape(RestSearch& search, double margin) {
+RestOutcome search_rest_shape(RestSearch& search, const std::vector<double>& margins) {
     constexpr double SMALLEST_STEP = 1.0 / 8;  // share of gravity below which the search gives up [-]
     double step = 1;
     for (double done = 0; done < 1;) {
@@ -181,9 +194,9 @@ RestOutcome search_rest_shape(RestSearch& search, double margin) {
         }
     }
     const bool stands = search.stiffness.set(search.elements, search.held, search.row, Tangent::exact, search.x);
-    if (stands && margin == 1) return {search.rest, {}, 1, -1};
-    RestOutcome outcome = find_outcome(search);
-    outcome.overload *= margin;
+    const bool as_it_is = std::all_of(margins.begin(), margins.end(), [](double margin) { return margin == 1; });
+    if (stands && as_it_is) return {search.rest, {}, 1, -1};
+    RestOutcome outcome = find_outcome(search, margins);
     if (stands && !(outcome.overload > 1)) outcome = {search.rest, {}, 1, -1};
     return outcome;
 }

@@ -38,8 +38,8 @@ struct RestOutcome {
 
 // Balances a share of gravity from the present rest shape; false, with that shape unchanged, if that fails.
 bool balance(RestSearch& search, double gravity);
-// Finds the rest shape of one mechanics, of a plant that could bear `margin` times its weight. Gravity is increased
-// gradually, in steps as large as the search bears.
-RestOutcome search_rest_shape(RestSearch& search, double margin = 1);
+// Finds the rest shape of one mechanics, of a plant that would stand if each organ were softer by its margin. Gravity
+// is increased gradually, in steps as large as the search bears.
+RestOutcome search_rest_shape(RestSearch& search, const std::vector<double>& margins);
 
 }  // namespace frond

@@ -108,13 +108,12 @@ WeakOrgan find_rest_shape(Model& model, int order) {
     constexpr double STIFFER = 2, MARGIN = 1.3;
     constexpr int MOST_TRIES = 40;
     std::vector<double> factor(model.organs.size(), 1.0);
-    // If all materials are Frond's choice, a touch must not topple the plant either; rods have more margin.
-    const bool given =
-        std::any_of(model.organs.begin(), model.organs.end(), [](const Organ& organ) { return organ.material_given; });
-    const double margin = given ? 1 : MARGIN;
+    // Where moduli are Frond's choice, a touch must not topple the plant either; rods have more margin.
+    std::vector<double> margins;
+    for (const Organ& organ : model.organs) margins.push_back(organ.young_given ? 1 : MARGIN);
     stiffen_torn_organs(model, order);
     auto search = std::make_unique<RestSearch>(model, FROND_MECHANICS_TET_COROTATIONAL, order);
-    RestOutcome outcome = search_rest_shape(*search, margin);
+    RestOutcome outcome = search_rest_shape(*search, margins);
     for (int i = 0; i < MOST_TRIES && outcome.rest.size() == 0; i++) {
         if (!outcome.shares.empty())
             stiffen_toppling_organs(model, outcome, factor);
@@ -123,7 +122,7 @@ WeakOrgan find_rest_shape(Model& model, int order) {
         else
             for (size_t o = 0; o < factor.size(); o++) stiffen(model, o, STIFFER, factor);
         search = std::make_unique<RestSearch>(model, FROND_MECHANICS_TET_COROTATIONAL, order);
-        outcome = search_rest_shape(*search, margin);
+        outcome = search_rest_shape(*search, margins);
     }
     if (outcome.rest.size() > 0) {
         const VecX change = fit_sway(*search);
@@ -159,7 +158,7 @@ void ensure_rest_shape(const Model& model, frond_mechanics which, int order) {
     if (which == FROND_MECHANICS_SPRING_CHAIN) shapes.springs = fit_springs(model);
     if (!model.stands_as_modelled || moves_chain) return;
     RestSearch search(model, which, order);
-    if (search_rest_shape(search).rest.size() == 0) return;
+    if (search_rest_shape(search, std::vector<double>(model.organs.size(), 1.0)).rest.size() == 0) return;
     const VecX change = fit_sway(search);
     std::vector<double>& stiffer = shapes.stiffer[row][size_t(which)];
     for (size_t e = 0; e < model.tet_young.size(); e++) stiffer.push_back(frond::exp(change[Eigen::Index(e)]));

@@ -14,7 +14,7 @@ namespace frond {
 namespace {
 
 // Materials that Frond chose bear this many times their load before they give way, as petioles do (1.7 to 2.9: Langer
-// and others 2021, doi 10.3389/fpls.2021.765605), so that a touch does not topple the plant. Materials that the caller
+// and others 2021, doi 10.3389/fpls.2021.765605), so that a touch does not topple the plant. Moduli that the caller
 // gave are used as they are.
 constexpr double SAFETY = 1.7, SAFETY_OF_GIVEN = 1.02;
 
@@ -113,7 +113,7 @@ static void find_stiffer(Model& model) {
     const std::vector<double> turns = find_turns(model).organ;
     std::vector<double> safety;
     for (size_t o = 0; o < stiffer.size(); o++) {
-        const bool given = model.organs[o].material_given;
+        const bool given = model.organs[o].young_given;
         stiffer[o] = given ? 1 : std::max(1.0, turns[o] / LARGEST_TURN);
         safety.push_back(given ? SAFETY_OF_GIVEN : SAFETY);
     }

@@ -23,8 +23,8 @@ static void visit(Archive& a, Material& material) {
 }
 
 static void visit(Archive& a, Organ& organ) {
-    auto& [name, kind, material, material_given, why, certainty] = organ;
-    a(name, kind, material, material_given, why, certainty);
+    auto& [name, kind, material, young_given, midrib_given, why, certainty] = organ;
+    a(name, kind, material, young_given, midrib_given, why, certainty);
 }
 
 static void visit(Archive& a, ChainNode& node) {

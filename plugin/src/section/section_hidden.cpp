@@ -11,8 +11,7 @@ namespace frond {
 void carry_crowns(const Chain& chain, const std::vector<Organ>& organs, std::vector<Section>& sections) {
     constexpr double AT_END = 0.3;  // radius of the wood there, over that where it enters the crown
     const auto is_crown = [&](const ChainNode& node) {
-        return node.organ >= 0 && organs[size_t(node.organ)].kind == "crown" &&
-               !organs[size_t(node.organ)].material_given;
+        return node.organ >= 0 && organs[size_t(node.organ)].kind == "crown" && !organs[size_t(node.organ)].young_given;
     };
     std::vector<double> farthest(organs.size(), 0.0), bending(chain.nodes.size(), 0.0), begin(bending);
     for (const ChainNode& node : chain.nodes)

@@ -53,6 +53,7 @@
 //   [24] Zhang and others 2016, BioResources 11(3): maize rind is elastic-plastic, strength in tension 80-178 MPa.
 //   [25] O'Dogherty, Huber, Dyson, Marshall 1995, J. Agric. Eng. Res. 62(2), 133-142, doi 10.1006/jaer.1995.1072: wheat
 //       straw, Young's modulus 4.8-6.6 GPa, strength in tension 21-31 MPa.
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -147,8 +148,8 @@ bool is_sheet(const Organ& organ) {
 // A leaf weighs the same with one face or two. A flower may be a head, of bracts, disc and seeds.
 double solid_thickness(const Organ& organ) {
     constexpr double HEAD = 3e-3;  // [m]
-    if (!is_sheet(organ) || organ.material_given) return INFINITY;
-    return organ.kind == "blade" ? 2 * organ.material.thickness : HEAD;
+    if (!is_sheet(organ)) return INFINITY;
+    return std::max(organ.kind == "flower" ? HEAD : 0, 2 * organ.material.thickness);
 }
 
 std::string material_kinds() {

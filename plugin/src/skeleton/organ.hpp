@@ -14,9 +14,9 @@ struct Organ {
     std::string name;  // "leaf_3"; unique in a model
     std::string kind;  // a row of the table in materials.cpp: "stem", "blade" ...
     Material material = {};
-    bool material_given = false;  // given by the caller, not a preset
-    std::string why = {};         // what speaks for its kind
-    double certainty = 1;         // 0: another kind is as likely, 1: nothing speaks for another one [-]
+    bool young_given = false, midrib_given = false;  // by the caller, who knows better than margins and hidden ribs
+    std::string why = {};                            // what speaks for its kind
+    double certainty = 1;  // 0: another kind is as likely, 1: nothing speaks for another one [-]
 };
 
 // Returns published values by kind; null if there is no such kind.
@@ -35,7 +35,7 @@ void check_material(const Material& material, const std::string& who);
 // Returns whether an organ is a sheet: a blade or a flower.
 bool is_sheet(const Organ& organ);
 // Returns the largest thickness of an organ that is all tissue [m]. Artists draw leaves thicker than they are: what is
-// drawn between two faces farther apart holds air. A given material fills what is drawn, and so does what is no sheet.
+// drawn between two faces farther apart holds air. What is no sheet fills what is drawn.
 double solid_thickness(const Organ& organ);
 
 // Finds organs: a part whose node is named after one is that organ; others are cut into sheets, tubes and solids, which

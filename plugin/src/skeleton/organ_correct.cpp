@@ -26,17 +26,23 @@ void take_kind(const std::string& wanted, Organ& organ) {
     if (!preset)
         fail(FROND_RESULT_BAD_ARGUMENT, "the kind of organ \"%s\" is corrected to \"%s\"; use %s", organ.name.c_str(),
              wanted.c_str(), material_kinds().c_str());
-    if (organ.kind != kind || wanted != kind) organ.material = *preset;
+    if (organ.kind != kind || wanted != kind) {
+        organ.material = *preset;
+        organ.young_given = organ.midrib_given = false;
+    }
     organ.kind = kind;
     organ.why = "corrected";
     organ.certainty = 1;
 }
 
 void take_material(const OrganCorrection& correction, Organ& organ) {
-    for (const auto& [field, value] : correction.material) organ.material.*MATERIAL_FIELDS[size_t(field)].field = value;
-    if (correction.material.empty()) return;
+    for (const auto& [number, value] : correction.material) {
+        const auto field = MATERIAL_FIELDS[size_t(number)].field;
+        organ.material.*field = value;
+        organ.young_given |= field == &Material::young;
+        organ.midrib_given |= field == &Material::midrib;
+    }
     check_material(organ.material, organ.name);
-    organ.material_given = true;
 }
 
 // Removes the triangles of organs from the surface; vertices stay.

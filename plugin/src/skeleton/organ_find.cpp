@@ -230,6 +230,10 @@ std::string list_organs(const std::vector<Organ>& organs) {
     return text;
 }
 
+static bool is_of(const frond_organ_material& wanted, const Organ& organ) {
+    return organ.name == wanted.organ || organ.kind == wanted.organ;
+}
+
 void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count) {
     if (count < 0 || (count > 0 && !overrides))
         fail(FROND_RESULT_BAD_ARGUMENT, "organ_count is %d but organs is %s; give an array of that many", count,
@@ -239,16 +243,18 @@ void override_materials(std::vector<Organ>& organs, const frond_organ_material* 
         if (!wanted.organ || !*wanted.organ)
             fail(FROND_RESULT_BAD_ARGUMENT, "organs[%d].organ is empty; give the name or the kind of an organ", i);
         check_material(wanted.material, wanted.organ);
-        bool matched = false;
-        for (Organ& organ : organs) {
-            if (organ.name != wanted.organ && organ.kind != wanted.organ) continue;
-            organ.material = wanted.material;
-            organ.material_given = true;
-            matched = true;
-        }
-        if (!matched)
+        if (std::none_of(organs.begin(), organs.end(), [&](const Organ& organ) { return is_of(wanted, organ); }))
             fail(FROND_RESULT_BAD_ARGUMENT, "no organ has the name or kind \"%s\"; this model has: %s", wanted.organ,
                  list_organs(organs).c_str());
+    }
+    for (Organ& organ : organs) {
+        const Material* wanted = nullptr;
+        for (int i = 0; i < count; i++)
+            if (is_of(overrides[i], organ)) wanted = &overrides[i].material;
+        if (!wanted) continue;
+        organ.young_given |= wanted->young != organ.material.young;
+        organ.midrib_given |= wanted->midrib != organ.material.midrib;
+        organ.material = *wanted;
     }
 }
 
