@@ -147,6 +147,7 @@ void expect_same(const Plant& a, const Plant& b) {
     ASSERT_EQ(before(a), before(b));
     ASSERT_EQ(air_force(a), air_force(b));
     ASSERT_EQ(a.trouble, b.trouble);
+    ASSERT_TRUE(are_same_bits(a.state.fibre_force, b.state.fibre_force));
     ASSERT_EQ(a.step.is_off_course, b.step.is_off_course);
     ASSERT_EQ(plastic_of(a), plastic_of(b));
     ASSERT_NEAR(a.report.residual, b.report.residual, 1e-12);

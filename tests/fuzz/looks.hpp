@@ -54,6 +54,8 @@ inline void look_at_plant(Stage& s) {
     frond_plant_get_momentum(plant, &vec);
     frond_plant_get_root_force(plant, s.input.vec(), &vec, &moment);
     frond_plant_get_detail(plant, &detail);
+    uint32_t trouble;
+    frond_plant_get_trouble(plant, &trouble);
     if (frond_plant_get_fragment_count(plant) > 0) frond_plant_get_fragment(plant, s.input.integer(), &broken);
     std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
     frond_plant_get_contacts(plant, contacts.data(), int(contacts.size()));

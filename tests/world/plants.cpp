@@ -100,6 +100,9 @@ TEST(CornPair, TellsOfContactsThatAreLeftOut) {
     crowded.steps(1);
     EXPECT_EQ(frond_plant_get_contact_count(crowded.plants[0]), 100);
     EXPECT_NE(crowded.report().trouble & FROND_TROUBLE_CROWDED, 0u);
+    uint32_t trouble = 0;
+    EXPECT_EQ(frond_plant_get_trouble(crowded.plants[0], &trouble), FROND_OK);
+    EXPECT_NE(trouble & FROND_TROUBLE_CROWDED, 0u);
     CornPair pair(FROND_RESPONSE_IMPULSE, FROND_MECHANICS_TET_COROTATIONAL, H, frond::test::AS_IN_SCENE,
                   FROND_COLLISION_ORGANS);
     pair.steps(1);

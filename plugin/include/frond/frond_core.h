@@ -34,7 +34,7 @@ typedef struct frond_world_def {
     frond_contact_tuning tuning; /* for comparisons */
 } frond_world_def;
 
-/* Trouble of a substep, bits of frond_report.trouble. */
+/* Trouble of a substep, bits of frond_report.trouble for a world and of frond_plant_get_trouble for a plant. */
 enum {
     /* Cause: the linear solver or Newton hit its limit. Effect: the step is less accurate.
      * Remedy: raise linear_iterations or newton_iterations of the plant's tuning, or use FROND_LINEAR_SOLVER_BLOCK. */
@@ -63,7 +63,18 @@ enum {
     FROND_TROUBLE_CROWDED = 1 << 6,
     /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
      * there for the step. Remedy: have the function of frond_world_set_wind_field write every velocity. */
-    FROND_TROUBLE_BAD_WIND = 1 << 7
+    FROND_TROUBLE_BAD_WIND = 1 << 7,
+    /* Bits of frond_plant_get_trouble alone: nothing went wrong, but the plant was moved without a force. */
+    /* Cause: the plant overlapped itself or another plant. Effect: it was moved apart, without velocity. Remedy: plants
+     * that stand farther apart. */
+    FROND_TROUBLE_PARTED = 1 << 8,
+    /* Cause: organs in a cage were longer than their fibres allow. Effect: these drew their nodes back. Remedy: rods,
+     * which keep their length by themselves. */
+    FROND_TROUBLE_PULLED_BACK = 1 << 9,
+    /* Cause: the viewer's distance or a budget changed the plant's detail, or a touch did. Effect: other mechanics took
+     * over its shape and motion, and what they cannot have blends out within a second. Remedy: frond_world_set_detail
+     * with other distances or without a budget. */
+    FROND_TROUBLE_CHANGED_DETAIL = 1 << 10
 };
 
 /* Counts of the last substep. Times are in frond_profile (frond_expert.h). */
@@ -526,6 +537,9 @@ FROND_API bool frond_plant_is_valid(frond_plant plant);
 /* Returns whether a plant is awake. False for stale handles, and for plants that sleep: see
  * frond_world_def.sleep_distance. */
 FROND_API bool frond_plant_is_awake(frond_plant plant);
+/* Gives what went wrong with a plant in the last substep, and what moved it without a force: bits FROND_TROUBLE_*. None
+ * while it sleeps. */
+FROND_API frond_result frond_plant_get_trouble(frond_plant plant, uint32_t* out);
 /* Wakes a plant for a reason that Frond cannot see, such as a static body that was put elsewhere. */
 FROND_API frond_result frond_plant_wake(frond_plant plant);
 /* Returns frond_plant_def.user; null for an invalid handle. */

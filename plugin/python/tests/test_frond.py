@@ -222,6 +222,7 @@ def test_detail_robots_and_other_settings(stem):
     plant.wake()
     world.step(0.1)
     assert plant.detail == frond.Detail.ROD
+    assert isinstance(plant.trouble, frond.Trouble) and not plant.trouble & frond.Trouble.REWOUND
     world.remove_detail()
     robot = world.add_robot("arm", position=(2, 0, 0))
     elbow = next(i for i in range(robot.link_count) if robot.link(i).joint == frond.Joint.REVOLUTE)

@@ -4,6 +4,7 @@
 #include "api/call.hpp"
 #include "api/handles.hpp"
 #include "world/fragments.hpp"
+#include "world/trouble.hpp"
 
 using namespace frond;
 
@@ -73,6 +74,10 @@ frond_result frond_plant_get_detail(frond_plant plant, frond_detail* out) {
         const PlantBody& body = get(plant);
         return detail_of(*body.world, body);
     });
+}
+
+frond_result frond_plant_get_trouble(frond_plant plant, uint32_t* out) {
+    return give(out, [&] { return trouble_of(get(plant)); });
 }
 
 frond_result frond_plant_wake(frond_plant plant) {

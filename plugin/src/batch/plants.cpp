@@ -190,6 +190,8 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     take_loads(plant, step, lane);
     plant.step.is_off_course = plant.step.starts_anew = false;
     plant.step.push = nullptr;
+    plant.step.unpulled = nullptr;
+    plant.state.fibre_force.resize(0);
     if (is_asked && !is_plausible(plant, step, lane, h)) {
         motion.x.swap(x);
         motion.v.swap(v);

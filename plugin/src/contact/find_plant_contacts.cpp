@@ -10,6 +10,7 @@
 #include "core/timer.hpp"
 #include "plant/pins.hpp"
 #include "world/fragments.hpp"
+#include "world/trouble.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -101,24 +102,25 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
 }
 
 // Keeps each plant's deepest contacts of an island: they suffice where plants overlap completely, and each contact is
-// coupled with all others of its plants, so that cost grows with the square of their number. Returns whether others
-// were dropped.
-bool keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
+// coupled with all others of its plants, so that cost grows with the square of their number.
+void keep_deepest(World& world, std::vector<PlantContact>& contacts) {
     constexpr int MOST = 100;  // contacts per plant
-    const size_t all = contacts.size();
-    if (all <= MOST) return false;
+    if (contacts.size() <= MOST) return;
     std::stable_sort(contacts.begin(), contacts.end(),
                      [](const PlantContact& a, const PlantContact& b) { return a.depth > b.depth; });
-    std::vector<int> count(plant_count, 0);
+    std::vector<int> count(world.taking_part.size(), 0);
     const auto is_too_many = [&](const PlantContact& contact) {
-        int &first = count[size_t(contact.plants[0]->number)], &second = count[size_t(contact.plants[1]->number)];
-        if (first >= MOST || second >= MOST) return true;
-        first++;
-        second++;
-        return false;
+        bool is_one = false;
+        for (PlantBody* body : contact.plants) {
+            if (count[size_t(body->number)] < MOST) continue;
+            note_trouble(world, *body, FROND_TROUBLE_CROWDED);
+            is_one = true;
+        }
+        if (!is_one)
+            for (const PlantBody* body : contact.plants) count[size_t(body->number)]++;
+        return is_one;
     };
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_too_many), contacts.end());
-    return contacts.size() < all;
 }
 
 // Contacts of one island, and the time of the search [ms].
@@ -327,7 +329,7 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
         for (size_t k = 0; k < islands[i].size(); k++)
             islands[i][k]->plant->step.is_watched = found[i].near[k] && !islands[i][k]->rest.asleep;
     for (Found& of : found) {
-        if (keep_deepest(world.taking_part.size(), of.contacts)) world.report.trouble |= FROND_TROUBLE_CROWDED;
+        keep_deepest(world, of.contacts);
         contacts.insert(contacts.end(), of.contacts.begin(), of.contacts.end());
         world.profile.ms_broad += of.ms_broad;
         world.profile.ms_hash += of.ms_hash;

@@ -11,7 +11,7 @@
 #include "contact/strip_search.hpp"
 #include "core/union_find.hpp"
 #include "world/convert.hpp"
-#include "world/world.hpp"
+#include "world/trouble.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -107,7 +107,7 @@ void group_bodies(World& world, double h, Groups& groups) {
         find_hits_in_step(world, swept, h, any_plant, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), most = most_depth(body, hit), before = depth_before(hit);
             if (!is_pushed || !pushes_back(world, body)) {
-                if (after > radius_of(body, hit.capsule)) world.report.trouble |= FROND_TROUBLE_PASSED;
+                if (after > radius_of(body, hit.capsule)) note_trouble(world, body, FROND_TROUBLE_PASSED);
                 return;
             }
             if (after <= most) return;

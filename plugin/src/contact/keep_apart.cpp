@@ -8,7 +8,7 @@
 #include "contact/contact_body.hpp"
 #include "contact/piece.hpp"
 #include "contact/strip_search.hpp"
-#include "world/world.hpp"
+#include "world/trouble.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -113,7 +113,7 @@ void for_each_miss(World& world, double crossed, size_t most, const Answers* ans
         if (paths.empty()) continue;
         std::vector<Miss> misses = misses_of(memory, paths, 1, crossed, answers);
         if (misses.size() > most) {
-            world.report.trouble |= FROND_TROUBLE_CROWDED;
+            for (PlantBody* body : memory.island) note_trouble(world, *body, FROND_TROUBLE_CROWDED);
             std::stable_sort(misses.begin(), misses.end(),
                              [](const Miss& a, const Miss& b) { return a.impact.time < b.impact.time; });
             misses.erase(misses.begin() + std::ptrdiff_t(most), misses.end());
@@ -211,7 +211,7 @@ void tell_what_is_behind(World& world, double h) {
     for (const Contact& contact : world.contacts)
         if (is_carried_on(contact) && has_step(*contact.plant) &&
             behind(contact, h) > radius_of(*contact.plant, contact.capsule))
-            world.report.trouble |= FROND_TROUBLE_PASSED;
+            note_trouble(world, *contact.plant, FROND_TROUBLE_PASSED);
 }
 
 std::vector<PlantBody*> find_crossing_plants(World& world, double h, bool by_plants) {

@@ -9,6 +9,7 @@
 #include "contact/coupled_rows.hpp"
 #include "contact/keep_apart.hpp"
 #include "solve/position_correction.hpp"
+#include "world/trouble.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -54,11 +55,12 @@ void part(const World& world, const ContactIsland& island, double h, std::vector
 
 }  // namespace
 
-void part_plants(World& world, double h, std::vector<TouchedPlant>& touched) {
+// Moves plants apart, by corrections that it returns.
+static Corrections part_all(World& world, double h, std::vector<TouchedPlant>& touched) {
     constexpr int MOST = 3;         // corrections, each with the contacts that the last one missed
     constexpr double LEAST = 0.25;  // share of a correction below which it is none [-]
     const auto overlap = [](const PlantContact& contact) { return contact.depth > 0; };
-    if (std::none_of(world.plant_contacts.begin(), world.plant_contacts.end(), overlap)) return;
+    if (std::none_of(world.plant_contacts.begin(), world.plant_contacts.end(), overlap)) return {};
     Corrections corrections(world.taking_part.size());
     const auto take_back = [&] {
         for (PlantBody* body : world.taking_part) go_share(*body->plant, corrections[size_t(body->number)], 0);
@@ -68,10 +70,10 @@ void part_plants(World& world, double h, std::vector<TouchedPlant>& touched) {
         const std::vector<ContactIsland> islands = find_contact_islands(world);
         run_jobs(world, islands.size(), [&](size_t i) { part(world, islands[i], h, touched, corrections); });
         const auto has_moved = [](const Correction& correction) { return correction.way.size() > 0; };
-        if (std::none_of(corrections.begin(), corrections.end(), has_moved)) return;
+        if (std::none_of(corrections.begin(), corrections.end(), has_moved)) return {};
         const Missed missed = add_missed_contacts(world, &PlantContact::lacking_place, nullptr);
         by_plants = !missed.passed.empty();
-        if (!by_plants && world.swept.empty()) return;
+        if (!by_plants && world.swept.empty()) return corrections;
         if (missed.asked.empty() || round == MOST) break;
         take_back();
     }
@@ -84,6 +86,14 @@ void part_plants(World& world, double h, std::vector<TouchedPlant>& touched) {
             again |= go_share(*body->plant, correction, correction.share > LEAST ? correction.share / 2 : 0);
         }
     }
+    return corrections;
+}
+
+void part_plants(World& world, double h, std::vector<TouchedPlant>& touched) {
+    const Corrections corrections = part_all(world, h, touched);
+    for (size_t i = 0; i < corrections.size(); i++)
+        if (corrections[i].way.size() > 0 && corrections[i].share > 0)
+            note_of_plant(world, *world.taking_part[i], FROND_TROUBLE_PARTED);
 }
 
 }  // namespace FROND_BULLET_PRECISION

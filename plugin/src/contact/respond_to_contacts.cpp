@@ -16,6 +16,7 @@
 #include "contact/stop_asking.hpp"
 #include "contact/strip_search.hpp"
 #include "core/elementary.hpp"
+#include "world/trouble.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -230,9 +231,10 @@ void respond_again(World& world, const ResponseRow& response, double h, Waiting&
     });
     for (const size_t i : open) {
         const bool is_last = given[i].couplings > MOST_COUPLINGS;
-        if (is_last) world.report.trouble |= FROND_TROUBLE_CROWDED;
-        for (const PlantBody* body : given[i].plants)
+        for (PlantBody* body : given[i].plants) {
+            if (is_last) note_trouble(world, *body, FROND_TROUBLE_CROWDED);
             all.answers[size_t(body->number)] = is_last ? Answer::last : Answer::fresh;
+        }
     }
     all.given = std::move(given);
 }

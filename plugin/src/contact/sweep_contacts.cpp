@@ -12,6 +12,7 @@
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
 #include "world/show.hpp"
+#include "world/trouble.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -220,7 +221,7 @@ bool add_hit(World& world, PlantBody& body, const SweptBody& swept, const Hit& h
     contact.is_inside = slides(*swept.object) && is_in_joint(body, hit.capsule, contact.on_plant);
     const bool is_led = swept.object->isKinematicObject();
     if (is_led && contact.normal.dot(swept.motion.way) > LIMIT * double(body.plant->size)) {
-        world.report.trouble |= FROND_TROUBLE_PASSED;
+        note_trouble(world, body, FROND_TROUBLE_PASSED);
         return false;
     }
     // Overlaps with free bodies are for Bullet's own contacts to end.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "world/trouble.hpp"
+
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
@@ -12,10 +14,12 @@ void add_effect(World& world, frond_effects effect, double ms) {
     world.profile.ms_of_effect[bit] += ms;
 }
 
-void add_to_report(World& world, const Plant& plant) {
+void add_to_report(World& world, PlantBody& body) {
     frond_report& report = world.report;
-    report.trouble |= plant.trouble;
+    const Plant& plant = *body.plant;
+    if (plant.trouble != 0) note_trouble(world, body, plant.trouble);
     if (plant.state.modal) return;
+    if (plant.state.fibre_force.size() > 0) note_of_plant(world, body, FROND_TROUBLE_PULLED_BACK);
     report.solver_iterations += plant.report.iterations;
     report.residual = std::max(report.residual, plant.report.residual);
     world.profile.ms_effects += plant.ms_effects;

@@ -8,8 +8,8 @@ inline namespace FROND_BULLET_PRECISION {
 
 // Records that an effect ran, and its time [ms].
 void add_effect(World& world, frond_effects effect, double ms);
-// Adds a plant's counts and times in this substep to the world's report and profile.
-void add_to_report(World& world, const Plant& plant);
+// Adds a plant's counts, times and trouble in this substep to the world's report and profile.
+void add_to_report(World& world, PlantBody& body);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

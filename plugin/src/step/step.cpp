@@ -35,7 +35,7 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
     frond_report& report = world.report;
     report.detail_count[body.level.now]++;
     if (!body.level.is_due) return;
-    add_to_report(world, *body.plant);
+    add_to_report(world, body);
     if (!body.plant->state.modal && body.plant->input.effects & world.effects & FROND_EFFECT_BREAKING) {
         const Timer timer;
         report.broken_count += break_overloaded(world, body);

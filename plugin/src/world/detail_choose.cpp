@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "world/convert.hpp"
-#include "world/world.hpp"
+#include "world/trouble.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -59,6 +59,7 @@ bool is_given(const PlantBody& body, frond_detail detail) {
 void give(PlantBody& body, frond_detail wanted) {
     Plant& plant = *body.plant;
     Level& level = body.level;
+    if (!is_given(body, wanted)) note_of_plant(*body.world, body, FROND_TROUBLE_CHANGED_DETAIL);
     if (is_simulated(wanted)) end_modal(plant);
     set_mechanics(plant, mechanics_for(body, wanted), true);
     if (!is_simulated(wanted)) {

@@ -113,7 +113,10 @@ void put_snapshot(World& world, Snapshot snapshot) {
     for (size_t i = 0; i < snapshot.plants.size(); i++)
         if (snapshot.plants[i].fragments.empty() && !world.bodies[i]->plant->state.fragments.empty())
             reset_plant(*world.bodies[i]);
-    for (const auto& body : world.bodies) wake(*body);
+    for (const auto& body : world.bodies) {
+        wake(*body);
+        body->troubled_in = UINT64_MAX;
+    }
     world.time = snapshot.time;
     if (world.wind) world.wind->travelled = snapshot.travelled;
     world.turn = size_t(snapshot.turn);

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._generated import (Capsule, ChainState, Contact, Detail, Effect, Energy, Fragment, HeldTurns, Integrator, Mechanics,
-                         PlantDef, SectionForce, Vector)
+                         PlantDef, SectionForce, Trouble, Vector)
 from ._lib import (Array, address_of, array_out, changes_world, check, check_host, documented, ffi, fill, flag, host,
                    integer, lib, mask_of, need, numbers, real, refuse, row_of, to_python, vector, wrap_handle)
 from .hold import Bond, Grab
@@ -270,6 +270,13 @@ class Plant(OfWorld):
         out = ffi.new("frond_detail *")
         check(lib.frond_plant_get_detail(self._handle, out))
         return Detail(int(ffi.cast("int", out[0])) if isinstance(out[0], ffi.CData) else out[0])
+
+    @property
+    def trouble(self) -> Trouble:
+        """What went wrong with it in the last substep, and what moved it without a force."""
+        out = ffi.new("uint32_t *")
+        check(lib.frond_plant_get_trouble(self._handle, out))
+        return Trouble(out[0])
 
     def _vector(self, get: Any) -> Array:
         out = ffi.new("frond_vec3 *")
