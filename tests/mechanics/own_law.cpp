@@ -1,7 +1,7 @@
 // A material law as plugin/manual/extending.md adds one: a struct that is made a row, without any other change.
 #include <gtest/gtest.h>
 
-#include "mechanics/tet_lanes.hpp"
+#include "mechanics/tet_row.hpp"
 #include "support/dense.hpp"
 #include "support/meshes.hpp"
 

@@ -1,7 +1,7 @@
 // Air around plants that are stepped as a batch.
 #pragma once
 
-#include "batch/step.hpp"
+#include "batch/batch_step.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {

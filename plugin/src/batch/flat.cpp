@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "batch/step.hpp"
+#include "batch/batch_step.hpp"
 #include "core/lane_vectors.hpp"
 #include "core/lanes_of_plants.hpp"
 #include "plant/air_push.hpp"

@@ -1,6 +1,6 @@
 // In: plants and a time h. Out: which of them may share a batch.
+#include "batch/batch_step.hpp"
 #include "batch/plants.hpp"
-#include "batch/step.hpp"
 #include "plant/guard.hpp"
 #include "plant/pins.hpp"
 

@@ -1,5 +1,5 @@
-// Batch: steps of plants of one model taken together, a plant per lane (batch/step.hpp), with the same results to the
-// last bit as each alone.
+// Batch: steps of plants of one model taken together, a plant per lane (batch/batch_step.hpp), with the same results to
+// the last bit as each alone.
 #pragma once
 
 #include "core/lanes.hpp"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "batch/step.hpp"
+#include "batch/batch_step.hpp"
 #include "core/lane_vectors.hpp"
 
 namespace frond {

@@ -5,7 +5,7 @@
 // derivative of the rotation, as in Chao, Pinkall, Sanan, Schröder 2010 ("A simple geometric model for elastic
 // deformations").
 #include "mechanics/polar_lanes.hpp"
-#include "mechanics/tet_lanes.hpp"
+#include "mechanics/tet_row.hpp"
 #include "mechanics/warped_stiffness.hpp"
 
 namespace frond {

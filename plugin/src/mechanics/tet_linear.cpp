@@ -1,6 +1,6 @@
 // In: the deformation gradient at a point. Out: energy, stress and stiffness of linear elasticity with displacements
 // u = x - x0, equation (1) of the paper: valid for small deflections; a large rotation makes the body swell.
-#include "mechanics/tet_lanes.hpp"
+#include "mechanics/tet_row.hpp"
 #include "mechanics/warped_stiffness.hpp"
 
 namespace frond {

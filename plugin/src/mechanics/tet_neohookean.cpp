@@ -11,7 +11,7 @@
 
 #include "core/decompose.hpp"
 #include "core/elementary.hpp"
-#include "mechanics/tet_lanes.hpp"
+#include "mechanics/tet_row.hpp"
 
 namespace frond {
 

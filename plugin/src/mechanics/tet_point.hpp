@@ -69,7 +69,7 @@ inline Lanes33<double> one_lane(const Mat3& value) {
     return out;
 }
 
-// Applies a material written for lanes to single points; see tet_row.hpp for what a material is.
+// Applies a material written for lanes to single points; see tet_by_tet.hpp for what a material is.
 template <class Law>
 struct PointByPoint {
     using Strain = typename Law::template Strain<double>;

@@ -1,88 +1,163 @@
-// Tet-by-tet functions of a row of the table of mechanics, from a material and an element; the rest is in
-// tet_lanes.hpp. A material ("law") has these functions of the deformation gradient F at one point:
-//   Strain strain(share, F)                         input of the others
-//   double energy(share, strain)                    a volume [J/m^3]
-//   Mat3 stress(share, strain)                      first Piola-Kirchhoff, dW/dF [Pa]
-//   TetStiffness stiffness(share, strain, tangent, scale)   scale times volume times d2W/dF2 between corners [N/m]
-//   bool inverted(strain)
+// Makes rows of the table of mechanics from a material that is written for lanes. Besides the functions of
+// tet_by_tet.hpp such a material ("law") has
+//   GOES_AHEAD                                       true if it has the next one, for Mechanics::add_ahead
+//   Lanes33<S> stress_of_change(share, strain, dF)   the positive stiffness times a change of F [Pa]
+// Four integration points are taken at once: of four T4 tets or of one T10 tet. Results are the same as for each alone,
+// and are added up in the order of tets.
 #pragma once
 
-#include "mechanics/rows.hpp"
-#include "mechanics/tet_plasticity.hpp"
+#include "mechanics/four_points.hpp"
+#include "mechanics/four_tets.hpp"
+#include "mechanics/tet_batch.hpp"
+#include "mechanics/tet_by_tet.hpp"
 
 namespace frond {
 
-template <class Law, class Element>
-struct TetRow {
-    // Makes the strain beyond yield plastic, or only a part of it where F_p would go too far.
-    static void let_flow(const Yield& yield, const TetShare& share, const Mat3& F, const Strained& now, double h,
-                         const Mat3& rest_inverse, TetPlastic& plastic) {
-        double hardening = plastic.hardening;
-        const double elastic = elastic_share(yield, now.strain, h, hardening);
-        for (double part = 1; part > LEAST_FLOW; part /= 2) {
-            const Mat3 change = flow_of(now.S, 1 - part * (1 - elastic));
-            TetPlastic next = plastic;
-            next.inverse *= change;
-            if (!(next.inverse.squaredNorm() < FARTHEST)) continue;
-            next.rest_inverse = rest_inverse * next.inverse;
-            next.hardening += part * (hardening - plastic.hardening);
-            // A change of shape may raise the volumetric energy at second order; energy must not grow.
-            if (Law::energy(share, Law::strain(share, F * change)) <= Law::energy(share, Law::strain(share, F)))
-                plastic = next;
-            return;
-        }
-    }
-    static void flow(Elements& body, const VecX& x, double h) {
-        TetElements& elements = static_cast<TetElements&>(body);
-        Strained now;
-        for (size_t e = 0; e < elements.tets.size(); ++e) {
-            const auto places = Element::places(elements, e, x);
-            for (int q = 0; q < Element::POINTS; ++q) {
-                const TetShare share = Element::share(elements, e, q);
-                const Mat3 F = Element::gradient(share, places, q);
-                if (!exceeds(share, F, elements.yields[e].strain, now)) continue;
-                const size_t point = e * Element::POINTS + size_t(q);
-                let_flow(elements.yields[e], share, F, now, h, elements.rest_inverse[point], elements.plastic[point]);
-            }
-        }
-    }
+// Sums of one pass over the tets; those that are null are skipped.
+template <class Law, class Group>
+struct TetPass {
+    const TetElements& elements;
+    const VecX& x;
+    int& inverted;  // number of inverted tets
+    double* energy = nullptr;
+    VecX* f = nullptr;
+    BlockMatrix* K = nullptr;
+    Tangent tangent = Tangent::positive;
+    double scale = 1;                              // factor of the stiffness
+    const std::vector<double>* damping = nullptr;  // one an element [s]
+    BlockMatrix* D = nullptr;                      // gets damping times the stiffness
+    const Ahead* ahead = nullptr;                  // K is then A of Mechanics::add_ahead
 
-    // Unbounded flow would end in a needle, which has no inverse; tissue would have broken before. Where a plastic
-    // stretch nears 1.5, tets stay elastic.
-    static constexpr double FARTHEST = 3.5;  // largest squared norm of F_p^-1 [-]
+    // Uses four lanes even if the processor has two.
+    template <class>
+    FROND_INLINE void run() const {
+        using S = FourLanes;
+        inverted = 0;
+        for (size_t first = 0; first < elements.tets.size(); first += Group::TETS) {
+            const Group tets(elements, first);
+            const TetShareLanes<S> share = tets.share();
+            const auto strain = Law::strain(tets.edges(x.data()) * share.rest_inverse);
+            inverted += tets.count_tets(Law::inverted(strain));
+            if (energy) *energy += tets.sum(share.volume * Law::energy(share, strain));
+            if (!f && !K) continue;
+            S by = constant<S>(scale), damped = constant<S>(0);
+            if (damping) damped = tets.of_tets(*damping);
+            if (ahead) {
+                damped += ahead->damping;
+                by = ahead->step * (ahead->step + damped);
+            }
+            const auto stress = [&]() FROND_INLINED {
+                if constexpr (Law::GOES_AHEAD)
+                    if (ahead) return stress_ahead<Law>(tets, share, strain, *ahead, damped);
+                return Law::stress(share, strain);
+            };
+            if (f) tets.add_force(share, stress(), *f);
+            if (!K) continue;
+            const TetStiffnessLanes<S> stiffness = Law::stiffness(share, strain, tangent, by);
+            tets.add_stiffness(stiffness, *K);
+            if (D) tets.add_stiffness(damped * stiffness, *D);
+        }
+    }
 };
 
-// In the linear tet at a point, moving corner b at rest by dX acts on F as moving it in space by -F dX; it also changes
-// the volume V and the gradients b_a. With H_a = V P b_a, minus the force on corner a, and K the stiffness,
-//   df_a/dX_b = K_ab F - H_a b_b^T + H_b b_a^T.
-// A translation changes nothing, and forces add up to zero, which gives the blocks of corner 0.
-template <class Law, class Element>
-void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<Mat3>& out) {
-    const TetElements& elements = as_tets(body);
-    out.assign(Element::NODES * Element::NODES, Mat3::Zero());
-    const auto places = Element::places(elements, e, x);
-    for (int q = 0; q < Element::POINTS; ++q) {
-        const TetShare share = Element::share(elements, e, q);
-        const Mat3 F = Element::gradient(share, places, q);
-        const auto strain = Law::strain(share, F);
-        const Mat3& B = share.rest_inverse;
-        const Mat3 H = Law::stress(share, strain) * B.transpose() * share.volume;
-        const TetStiffness k = Law::stiffness(share, strain, Tangent::exact, 1);
-        const Mat3 K[3][3] = {
-            {k.k11, k.k21.transpose(), k.k31.transpose()}, {k.k21, k.k22, k.k32.transpose()}, {k.k31, k.k32, k.k33}};
-        std::array<Mat3, 16> corners;
-        corners.fill(Mat3::Zero());
-        for (size_t a = 1; a < 4; ++a)
-            for (size_t b = 1; b < 4; ++b) {
-                const Eigen::Index i = Eigen::Index(a) - 1, j = Eigen::Index(b) - 1;
-                const Mat3 block = K[i][j] * F - H.col(i) * B.row(j) + H.col(j) * B.row(i);
-                corners[4 * a + b] = block;
-                corners[4 * a] -= block;
-                corners[b] -= block;
-                corners[0] += block;
-            }
-        Element::add_to_nodes(q, corners, out);
+template <class Law, class Group>
+struct TetRowInLanes {
+    static double energy(const Elements& body, const VecX& x) {
+        double energy = 0;
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.energy = &energy;
+        run_in_lanes(pass);
+        return energy;
     }
+    static int add_force(const Elements& body, const VecX& x, VecX& f) {
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.f = &f;
+        run_in_lanes(pass);
+        return inverted;
+    }
+    static void add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale, BlockMatrix& K) {
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.K = &K;
+        pass.tangent = tangent;
+        pass.scale = scale;
+        run_in_lanes(pass);
+    }
+    static int add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.f = &f;
+        pass.K = &K;
+        pass.tangent = tangent;
+        run_in_lanes(pass);
+        return inverted;
+    }
+    static int add_damped(const Elements& body, const VecX& x, const std::vector<double>& damping, VecX& f,
+                          BlockMatrix& K, BlockMatrix& D) {
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.f = &f;
+        pass.K = &K;
+        pass.damping = &damping;
+        pass.D = &D;
+        run_in_lanes(pass);
+        return inverted;
+    }
+    static int add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.f = &f;
+        pass.K = &A;
+        pass.damping = ahead.element_damping.empty() ? nullptr : &ahead.element_damping;
+        pass.ahead = &ahead;
+        run_in_lanes(pass);
+        return inverted;
+    }
+};
+
+template <class Law>
+Mechanics tet_row(const char* name, int order, bool needs_search) {
+    Mechanics row;
+    row.name = name;
+    row.masses = tet_masses;
+    row.copy = copy_tets;
+    row.get_plastic = plastic_of_tets;
+    row.set_plastic = set_plastic_of_tets;
+    row.section_strains = tet_section_strains;
+    row.without = without_tets;
+    row.needs_search = needs_search;
+    const auto take = [&](auto element, auto lanes) {
+        using Element = decltype(element);
+        using Points = PointByPoint<Law>;
+        row.energy = lanes.energy;
+        row.add_force = lanes.add_force;
+        row.add_stiffness = lanes.add_stiffness;
+        row.add_force_and_stiffness = lanes.add_both;
+        row.add_force_stiffness_and_damping = lanes.add_damped;
+        if (Law::GOES_AHEAD) row.add_ahead = lanes.add_ahead;
+        row.is_calm = tets_are_calm<Element>;
+        row.rest_derivative = rest_derivative<Points, Element>;
+        row.yields = tets_yield<Element>;
+        row.flow = TetByTet<Points, Element>::flow;
+    };
+    row.make = order == 1 ? make_tets<1> : make_tets<2>;
+    if (order == 1)
+        take(LinearTet(), TetRowInLanes<Law, FourTets>());
+    else
+        take(QuadraticTetElement(), TetRowInLanes<Law, FourPoints>());
+    return row;
+}
+
+// Makes a row whose plants are stepped in batches too.
+template <class Law>
+Mechanics batched_tet_row(const char* name, int order) {
+    Mechanics row = tet_row<Law>(name, order, false);
+    if (order == 2) return row;
+    static const BatchMechanics BATCH = {TetBatch<Law>::set_ahead, nullptr, tets_not_calm, tets_may_yield};
+    row.batch = &BATCH;
+    return row;
 }
 
 }  // namespace frond

@@ -1,6 +1,6 @@
 // In: the motions of several plants, one a lane. Out: their motions after a step of bdf2 with one solve, or of implicit
 // Euler where bdf2 starts anew: for each the operations of step_bdf2() and solve_stage(), in the same order.
-#include "batch/step.hpp"
+#include "batch/batch_step.hpp"
 
 #include <algorithm>
 
