@@ -28,6 +28,18 @@ for name in $(grep -ohE '`[a-z_/0-9]+\.(cpp|hpp|md|cmake|sh)`' plugin/DESIGN.md 
     [ -n "$(find ./plugin/src ./tests ./tools -path "*/$name" -print -quit)" ] || fail "plugin/DESIGN.md, GLOSSARY.md or a README.md of plugin/src: there is no $name"
 done
 
+# The map of the house is short, has all rooms in the order in which they may include each other, and names files that exist.
+map=plugin/src/README.md
+[ "$(wc -l <$map)" -lt 80 ] || fail "$map has 80 lines or more"
+rooms=$(sed -nE 's#^set\(FROND_FOLDERS (core .*)\)#\1 world contact step api#p' plugin/CMakeLists.txt)
+[ "$(grep -oP '^\| `\K[a-z]+(?=` \|)' $map | tr '\n' ' ')" = "$rooms " ] || fail "$map does not list the rooms in their order: $rooms"
+for name in $(grep -oE '`[a-z_]+/[a-z_/0-9]+(\.[a-z]+)?`' $map | tr -d '`' | sort -u); do
+    [ -e "plugin/src/$name" ] || [ -e "$name" ] || fail "$map: there is no $name"
+done
+while IFS= read -r target; do
+    [ -e "plugin/src/$target" ] || fail "$map: there is no $target"
+done < <(grep -oP '\]\(\K(?!http)[^)#]+' $map)
+
 # Names of the API, as the preprocessor sees them; of the build, the environment and the tools.
 names=$(mktemp)
 trap 'rm -f "$names"' EXIT
