@@ -69,7 +69,7 @@ Surface load(const Row& row, bool bare) {
 Found find(const Row& row, Surface surface) {
     Topology topology = make_topology(surface);
     const Timer timer;
-    const std::vector<Organ> organs = find_organs(surface, topology, nullptr, 0);
+    const std::vector<Organ> organs = find_organs(surface, topology);
     Found found;
     found.ms = timer.ms();
     if (std::getenv("FROND_CORPUS") && is_wanted(row))

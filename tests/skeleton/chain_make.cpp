@@ -337,7 +337,7 @@ TEST(Chain, IsQuick) {
     const int triangles = int(sketch.surface.triangles.size());
     Surface surface = sketch.surface;
     Topology topology = make_topology(surface);
-    const std::vector<Organ> organs = find_organs(surface, topology, nullptr, 0);
+    const std::vector<Organ> organs = find_organs(surface, topology);
     Timer timer;
     make_chain(surface, topology, organs, {});
     // The goal is 0.1 s for 30,000 triangles; sanitizers and busy machines get more.

@@ -115,7 +115,7 @@ inline Grown grow(const Sketch& sketch, const ChainOptions& options = {}) {
     Grown grown;
     grown.surface = sketch.surface;
     grown.topology = make_topology(grown.surface);
-    grown.organs = find_organs(grown.surface, grown.topology, nullptr, 0);
+    grown.organs = find_organs(grown.surface, grown.topology);
     grown.chain = make_chain(grown.surface, grown.topology, grown.organs, options);
     return grown;
 }

@@ -6,6 +6,7 @@
 #include "chain_shapes.hpp"
 #include "core/error.hpp"
 #include "skeleton/organ_clues.hpp"
+#include "skeleton/organ_correct.hpp"
 #include "support/materials.hpp"
 
 namespace frond {
@@ -291,7 +292,7 @@ TEST(Organs, OfOneMeshAreToldByLocalShape) {
     Surface surface = sketch.surface;
     Topology topology = make_topology(surface);
     ASSERT_EQ(topology.component_count, 1);
-    const std::vector<Organ> organs = find_organs(surface, topology, nullptr, 0);
+    const std::vector<Organ> organs = find_organs(surface, topology);
     ASSERT_EQ(organs.size(), 2u);
     for (const Part& part : surface.parts)
         for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++) {
@@ -334,7 +335,7 @@ TEST(Organs, ReorderSurfaceAndTopologyAlike) {
     std::multiset<std::pair<Triangle, int>> before, after;
     for (size_t t = 0; t < surface.triangles.size(); t++)
         before.insert({topology.triangles[t], topology.triangle_component[t]});
-    find_organs(surface, topology, nullptr, 0);
+    find_organs(surface, topology);
     int next = 0;
     for (const Part& part : surface.parts) {
         EXPECT_EQ(part.first_triangle, next);
@@ -378,7 +379,8 @@ TEST(Organs, HaveTheirPartsNameOrOneOfTheirOwn) {
 std::string failure(Sketch sketch, const std::vector<frond_organ_material>& overrides, int count = -1) {
     Topology topology = make_topology(sketch.surface);
     try {
-        find_organs(sketch.surface, topology, overrides.data(), count < 0 ? int(overrides.size()) : count);
+        std::vector<Organ> organs = find_organs(sketch.surface, topology);
+        override_materials(organs, overrides.data(), count < 0 ? int(overrides.size()) : count);
     } catch (const Error& error) {
         EXPECT_EQ(error.code, FROND_RESULT_BAD_ARGUMENT);
         return error.what();
@@ -392,7 +394,8 @@ TEST(Organs, TakeMaterialsByNameOrKindTheLastMatchWins) {
     Topology topology = make_topology(surface);
     const Material soft = plain_material(800, 1e5, 0.1, 1e-4), hard = plain_material(1200, 1e10, 0.4, 1e-3);
     const frond_organ_material overrides[] = {{"blade", soft}, {"leaf_2", hard}};
-    const std::vector<Organ> organs = find_organs(surface, topology, overrides, 2);
+    std::vector<Organ> organs = find_organs(surface, topology);
+    override_materials(organs, overrides, 2);
     EXPECT_EQ(organs[0].material.young, material_preset("stem")->young);
     EXPECT_EQ(organs[1].material.young, 1e5);
     EXPECT_EQ(organs[2].material.young, 1e10);

@@ -13,7 +13,7 @@
 #include "modelling/attach.hpp"
 #include "modelling/build_urdf.hpp"
 #include "modelling/cook.hpp"
-#include "skeleton/organ_clues.hpp"
+#include "skeleton/organ_correct.hpp"
 
 namespace frond {
 
@@ -34,7 +34,7 @@ static void add_corrections(const frond_model_def& def, std::vector<OrganCorrect
 static std::vector<int> find_organs(Model& model, const frond_model_def& def,
                                     const std::vector<OrganCorrection>& corrections) {
     model.topology = make_topology(model.surface);
-    model.organs = find_organs(model.surface, model.topology, nullptr, 0);
+    model.organs = find_organs(model.surface, model.topology);
     std::vector<int> rooted = correct_organs(corrections, model.surface, model.topology, model.organs);
     override_materials(model.organs, def.organs, def.organ_count);
     model.organ_stiffer.assign(model.organs.size(), 1.0);

@@ -3,7 +3,7 @@
 #include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "io/urdf_pieces.hpp"
-#include "skeleton/organ_clues.hpp"
+#include "skeleton/organ_correct.hpp"
 #include "skeleton/topology_joints.hpp"
 
 namespace frond {
@@ -54,7 +54,7 @@ static void build_stems(const UrdfTree& tree, const std::vector<UrdfPiece>& piec
     place_surface(model.surface, import_options(def));
     const Timer timer;
     model.topology = make_topology(model.surface);
-    model.organs = find_organs(model.surface, model.topology, nullptr, 0);
+    model.organs = find_organs(model.surface, model.topology);
     std::vector<int> links;
     for (Part& part : model.surface.parts) {
         const UrdfPiece& piece = pieces[size_t(std::stoi(part.name.substr(5)))];
@@ -105,7 +105,7 @@ static void build_surface(const UrdfTree& tree, const std::vector<UrdfPiece>& pi
     model.topology = make_topology(model.surface);
     join_at(model.surface, seams_of(tree, pieces, turn, model.surface, placement_of(made, model.surface)),
             model.topology);
-    model.organs = find_organs(model.surface, model.topology, nullptr, 0);
+    model.organs = find_organs(model.surface, model.topology);
     std::vector<int> links;
     for (const Part& part : model.surface.parts)
         for (size_t i = 0; i < tree.links.size(); ++i)

@@ -41,9 +41,7 @@ double solid_thickness(const Organ& organ);
 // Finds organs: a part whose node is named after one is that organ; others are cut into sheets, tubes and solids, which
 // votes of shape, place, name, material, colour and texture tell to be leaves, stems, fruits ... (organ_votes.cpp).
 // Sets Part::organ and splits parts that hold several organs: triangles are then reordered, in the surface and in the
-// topology alike. Parts of several materials may share an organ. `overrides` replace materials by organ name or kind,
-// the last match wins; an override that matches no organ is an error that names the existing organs.
-std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond_organ_material* overrides,
-                               int override_count);
+// topology alike. Parts of several materials may share an organ.
+std::vector<Organ> find_organs(Surface& surface, Topology& topology);
 
 }  // namespace frond

@@ -34,8 +34,5 @@ void find_cards(const Surface& surface, const Topology& topology, const std::vec
                 std::vector<std::string>& named);
 // Returns "stem (stem), leaf_1 (blade) ... and 12 more", for error texts.
 std::string list_organs(const std::vector<Organ>& organs);
-// Replaces materials by the caller's, as a part of find_organs(). Those come whole, so a number of theirs counts as
-// given where it is not the one that the organ had.
-void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count);
 
 }  // namespace frond

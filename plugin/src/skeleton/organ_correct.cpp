@@ -210,4 +210,32 @@ std::vector<int> correct_organs(const std::vector<OrganCorrection>& corrections,
     return rooted;
 }
 
+static bool is_of(const frond_organ_material& wanted, const Organ& organ) {
+    return organ.name == wanted.organ || organ.kind == wanted.organ;
+}
+
+void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count) {
+    if (count < 0 || (count > 0 && !overrides))
+        fail(FROND_RESULT_BAD_ARGUMENT, "organ_count is %d but organs is %s; give an array of that many", count,
+             overrides ? "an array" : "null");
+    for (int i = 0; i < count; i++) {
+        const frond_organ_material& wanted = overrides[i];
+        if (!wanted.organ || !*wanted.organ)
+            fail(FROND_RESULT_BAD_ARGUMENT, "organs[%d].organ is empty; give the name or the kind of an organ", i);
+        check_material(wanted.material, wanted.organ);
+        if (std::none_of(organs.begin(), organs.end(), [&](const Organ& organ) { return is_of(wanted, organ); }))
+            fail(FROND_RESULT_BAD_ARGUMENT, "no organ has the name or kind \"%s\"; this model has: %s", wanted.organ,
+                 list_organs(organs).c_str());
+    }
+    for (Organ& organ : organs) {
+        const Material* wanted = nullptr;
+        for (int i = 0; i < count; i++)
+            if (is_of(overrides[i], organ)) wanted = &overrides[i].material;
+        if (!wanted) continue;
+        organ.young_given |= wanted->young != organ.material.young;
+        organ.midrib_given |= wanted->midrib != organ.material.midrib;
+        organ.material = *wanted;
+    }
+}
+
 }  // namespace frond

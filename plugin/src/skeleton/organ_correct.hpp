@@ -50,6 +50,11 @@ struct Corrections {
 std::vector<int> correct_organs(const std::vector<OrganCorrection>& corrections, Surface& surface, Topology& topology,
                                 std::vector<Organ>& organs);
 
+// Replaces materials by the caller's, by the organs' names or kinds; the last match wins. These come whole, so a number
+// counts as given where it is not the one that the organ had. Fails with BAD_ARGUMENT where one matches no organ,
+// naming those there are.
+void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count);
+
 // Returns the organ that each organ grows out of, -1: the ground, or nothing.
 std::vector<int> find_parents(const Chain& chain, size_t organ_count);
 

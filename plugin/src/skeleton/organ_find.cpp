@@ -230,34 +230,6 @@ std::string list_organs(const std::vector<Organ>& organs) {
     return text;
 }
 
-static bool is_of(const frond_organ_material& wanted, const Organ& organ) {
-    return organ.name == wanted.organ || organ.kind == wanted.organ;
-}
-
-void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count) {
-    if (count < 0 || (count > 0 && !overrides))
-        fail(FROND_RESULT_BAD_ARGUMENT, "organ_count is %d but organs is %s; give an array of that many", count,
-             overrides ? "an array" : "null");
-    for (int i = 0; i < count; i++) {
-        const frond_organ_material& wanted = overrides[i];
-        if (!wanted.organ || !*wanted.organ)
-            fail(FROND_RESULT_BAD_ARGUMENT, "organs[%d].organ is empty; give the name or the kind of an organ", i);
-        check_material(wanted.material, wanted.organ);
-        if (std::none_of(organs.begin(), organs.end(), [&](const Organ& organ) { return is_of(wanted, organ); }))
-            fail(FROND_RESULT_BAD_ARGUMENT, "no organ has the name or kind \"%s\"; this model has: %s", wanted.organ,
-                 list_organs(organs).c_str());
-    }
-    for (Organ& organ : organs) {
-        const Material* wanted = nullptr;
-        for (int i = 0; i < count; i++)
-            if (is_of(overrides[i], organ)) wanted = &overrides[i].material;
-        if (!wanted) continue;
-        organ.young_given |= wanted->young != organ.material.young;
-        organ.midrib_given |= wanted->midrib != organ.material.midrib;
-        organ.material = *wanted;
-    }
-}
-
 // Returns the colour of a kind of organ (linear).
 static std::array<float, 4> color_of_kind(const std::string& kind) {
     static const struct {
@@ -293,8 +265,7 @@ static void color_by_kind(Surface& surface, const std::vector<Organ>& organs) {
             part.color = color_of_kind(organs[size_t(part.organ)].kind);
 }
 
-std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond_organ_material* overrides,
-                               int override_count) {
+std::vector<Organ> find_organs(Surface& surface, Topology& topology) {
     if (surface.triangles.empty() || topology.triangles.size() != surface.triangles.size())
         fail(FROND_RESULT_BAD_GEOMETRY, "the model has no triangles; give at least one with area");
     if (surface.parts.empty()) {
@@ -304,7 +275,6 @@ std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond
     const FoundOrgans found = find_in_singles(surface, topology);
     split_parts(surface, topology, found.organ_of);
     std::vector<Organ> organs = name_organs(surface, found.organs);
-    override_materials(organs, overrides, override_count);
     color_by_kind(surface, organs);
     return organs;
 }
