@@ -25,7 +25,7 @@ constexpr Cost COSTS[] = {{FROND_INTEGRATOR_IMPLICIT_EULER, 3.7e-6, 0.66e-6},
 
 // Capsules from root to tip of the chains that are tried; the finest, with each capsule cut in two, is the reference.
 constexpr int PIECES[] = {5, 7, 10, 14, 20, 28, 40, 57, 80, 113, 160};
-constexpr int PARTS = 2;
+constexpr int PARTS = 2;                               // into which the reference cuts each capsule
 constexpr double LEAST_STEPS = 12, MOST_STEPS = 4000;  // in a period of the main mode
 
 // Returns the length along the chain from a root to the farthest node [m].

@@ -143,7 +143,7 @@ double sway_error(const TipSway& sway, const TipSway& exact, frond_integrator in
 }
 
 double sway_error(const TipSway& sway, const TipSway& exact) {
-    constexpr int TIMES = 400;
+    constexpr int TIMES = 400;  // at which both are compared, in two periods
     const double h = length_of_time(exact) / TIMES;
     ExactTip tip(sway, h), right(exact, h);
     const double first = right.place().norm();

@@ -14,8 +14,8 @@ static StripCore at_time(const StripCore& before, const StripCore& after, double
 std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCore& a_after, const StripCore& b_before,
                                         const StripCore& b_after, double near, const StripGap& now) {
     constexpr double TOLERANCE = 0.01;  // over `near` [-]
-    constexpr int MOST_STEPS = 100;
-    constexpr double NEVER = 2;
+    constexpr int MOST_STEPS = 100;     // of an advancement at most
+    constexpr double NEVER = 2;         // a time after the step, which ends at 1 [-]
     std::optional<StripImpact> impact;
     const double beyond = (1 + TOLERANCE) * near;
     if (stay_apart_along(now.normal, a_before.at, a_after.at, b_before.at, b_after.at, beyond)) return impact;

@@ -55,7 +55,7 @@ int nearest_capsule(const PlantBody& body, const Vec3& p) {
 // Returns whether a body's point is on the side of a core from which Bullet has the body come. Else it is past the
 // core, and the exit direction is Bullet's.
 bool is_outside(const Vec3& way, const Vec3& towards) {
-    constexpr double SIDEWAYS = 0.2;
+    constexpr double SIDEWAYS = 0.2;  // cosine of the angle up to which a point beside the core is still outside
     return way.dot(towards) > SIDEWAYS * way.norm();
 }
 

@@ -47,7 +47,7 @@ std::vector<Vec3> points_over_plate(const PlantBody& body, int capsule, const bt
     // Slopes of the body's side against the plate: of a face on it, then of edges that slope over its rim [-].
     constexpr double TILTS[] = {0.05, 0.2, 0.6};
     constexpr double NEAR = 0.005;  // height above the plate up to which points of slopes are used [m]
-    constexpr int DIRECTIONS = 8;
+    constexpr int DIRECTIONS = 8;   // around the plate, in which slopes are looked for
     const Plant& plant = *body.plant;
     const Flat& flat = body.hull->flats[size_t(capsule)];
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];

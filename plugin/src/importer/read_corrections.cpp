@@ -60,7 +60,7 @@ void read_material(const OrderedJson& object, const std::string& where, OrganCor
     for (const auto& [key, value] : object.items()) {
         std::string known;
         int found = -1;
-        for (size_t i = 0; i < MATERIAL_FIELD_COUNT; i++) {
+        for (size_t i = 0; i < std::size(MATERIAL_FIELDS); i++) {
             known += (i ? ", " : "") + std::string(MATERIAL_FIELDS[i].name);
             if (key == MATERIAL_FIELDS[i].name) found = int(i);
         }

@@ -50,7 +50,7 @@ static void visit(Archive& a, UrdfTree& tree) {
 
 static void visit(Archive& a, std::pair<int, double>& field_and_value) {
     auto& [field, value] = field_and_value;
-    a.one_of(field, int(MATERIAL_FIELD_COUNT));
+    a.one_of(field, int(std::size(MATERIAL_FIELDS)));
     a(value);
 }
 

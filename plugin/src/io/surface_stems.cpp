@@ -11,6 +11,7 @@
 
 namespace frond {
 
+// Corners of a ring, rings of a half sphere and at most of a cone, and stems of a plant.
 static constexpr int SIDES = 10, CAP_RINGS = 3, MOST_RINGS = 48, MOST_STEMS = 100000;
 
 static void check_stems(const frond_stem* stems, int stem_count) {

@@ -9,6 +9,7 @@
 
 namespace frond {
 
+// Corners of a ring, rings of a half sphere and at most of a cylinder, cells along the edge of a box.
 static constexpr int URDF_SIDES = 12, URDF_CAP_RINGS = 4, MOST_URDF_RINGS = 48, MOST_CELLS = 16;
 
 // A circle around the z axis.

@@ -9,9 +9,9 @@ namespace frond {
 // solve.
 template <class S>
 struct RodLook {
-    static constexpr int NUMBERS = 30;
-    Lanes3<S> strain;                 // not relative to rest
-    Lanes33<S> by_chord, by_a, by_b;  // derivatives by chord and turns, times the length at rest
+    static constexpr int NUMBERS = 30;  // of the members below, in each lane
+    Lanes3<S> strain;                   // not relative to rest
+    Lanes33<S> by_chord, by_a, by_b;    // derivatives by chord and turns, times the length at rest
 
     FROND_INLINE static RodLook of(const RodPiece<S>& rod, const RodBent<S>& bent, const RodChange<S>& change) {
         return {bent.strain + rod.rest_strain, change.strain_chord, change.strain_a, change.strain_b};

@@ -46,7 +46,7 @@ AirShape shape_of(const Organ& organ) {
 }
 
 double coefficient_of(const Organ& organ, const OrganSize& size) {
-    constexpr double CROWN = 0.4, ENDLESS_PLATE = 1.98;
+    constexpr double CROWN = 0.4, ENDLESS_PLATE = 1.98;  // sources above [-]
     if (organ.material.drag > 0) return organ.material.drag;
     if (organ.kind == "crown") return CROWN;
     if (!is_sheet(organ)) return 0;

@@ -173,8 +173,8 @@ void leave_fragments(Plant& plant) {
 // Returns where the nodes of a part are once it has sprung back: nothing holds it strained any more. That is one long
 // step of implicit Euler from rest, searched to balance, which leaves its centre and hardly turns it.
 static VecX sprung_back(const Plant& plant, int fragment) {
-    constexpr double LONG = 1;  // longer than what comes off sways [s]
-    constexpr int ITERATIONS = 30;
+    constexpr double LONG = 1;      // longer than what comes off sways [s]
+    constexpr int ITERATIONS = 30;  // of Newton's method at most
     std::vector<uint8_t> others;
     for (int of : plant.state.parting->of_chain) others.push_back(of != fragment);
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);

@@ -79,7 +79,7 @@ void begin_rigid(const Follow& follow, const Model& model, const VecX& cage_x, V
 }  // namespace
 
 void fit_chain(const Follow& follow, const Model& model, const VecX& cage_x, VecX& x) {
-    constexpr int ROUNDS = 12;
+    constexpr int ROUNDS = 12;  // of Gauss-Newton, which keeps the best of them
     Normal normal(follow, x.size());
     begin_rigid(follow, model, cage_x, x);
     VecX places, best = x;

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int USUAL_STEM_COUNT = 20;  // capsules along the longest path
 constexpr int LEAST_COUNT = 2;        // capsules per segment
-constexpr int MOST_COUNT = 2000;
-constexpr double ONE_ROOT = 1e-3;  // of a stem's length: roots no farther apart are one
+constexpr int MOST_COUNT = 2000;      // capsules along the longest path
+constexpr double ONE_ROOT = 1e-3;     // of a stem's length: roots no farther apart are one
 
 struct StemPiece {
     int parent;
@@ -34,7 +34,7 @@ struct StemPiece {
     // since waves are (by its root) and a thin piece's mass is lumped the more coarsely; where a stem narrows by half
     // at most, that is no matter.
     double even_cut(double share) const {
-        constexpr double MILD = 2;
+        constexpr double MILD = 2;  // radius over radius up to which pieces are of one length [-]
         if (std::max(radius_begin, radius_end) <= MILD * std::min(radius_begin, radius_end)) return share;
         const double a = frond::cbrt(radius_begin), b = frond::cbrt(radius_end), way = share * (b - a);
         return share * ((3 * a * (a + way) + way * way) / (a * (a + b) + b * b));

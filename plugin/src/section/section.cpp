@@ -76,7 +76,7 @@ bool is_bounded(const Organ& organ, const Outline& outline) {
 // Returns the thickness of each sheet that is bounded by two faces for a good part of its length, else 0 [m].
 std::vector<double> measure_gaps(const std::vector<Organ>& organs, const Chain& chain,
                                  const std::vector<Outline>& outlines) {
-    constexpr double GOOD_PART = 1.0 / 3;
+    constexpr double GOOD_PART = 1.0 / 3;  // of a sheet's capsules
     std::vector<std::vector<double>> gaps(organs.size());
     std::vector<int> capsules(organs.size(), 0);
     for (size_t i = 0; i < chain.nodes.size(); i++) {
@@ -108,7 +108,7 @@ void take_section(const Section& from, Section& section) {
 // that is much smaller than the surface around the capsule belongs to a corner that happens to be cut, and is not used.
 bool fill_outline(const ChainNode& node, const Organ& organ, double gap, const Spread& spread, const Outline& outline,
                   const std::vector<Section>& before, Section& section) {
-    constexpr double TOO_SMALL = 0.4;
+    constexpr double TOO_SMALL = 0.4;  // area over that of the ring around [-]
     const double drawn = spread.area / section.length;
     section.thickness = organ.material.thickness;
     if (is_sheet(organ) && spread.area > 0) {
@@ -170,7 +170,7 @@ void continue_petioles(const Chain& chain, const std::vector<Organ>& organs, std
 // A surface of few triangles gives ragged sections: each that is not exact becomes the mean with its neighbours of the
 // same organ.
 void smooth_sections(const Chain& chain, const std::vector<char>& exact, std::vector<Section>& sections) {
-    constexpr int PASSES = 2;
+    constexpr int PASSES = 2;  // after which the mean is over five capsules
     for (int pass = 0; pass < PASSES; pass++) {
         std::vector<Section> sum = sections;
         std::vector<int> count(sections.size(), 1);

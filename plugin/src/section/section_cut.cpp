@@ -155,7 +155,7 @@ void drop_points(std::array<PlaneCut, 3>& cuts) {
 
 // Returns the taper if the sizes of all cuts, which grow with the root of the area, are those of one cone; else zero.
 double taper_of(const std::array<PlaneCut, 3>& cuts) {
-    constexpr double STRAIGHT = 0.02;
+    constexpr double STRAIGHT = 0.02;  // distance of the middle size from the mean of the others, over it [-]
     const double a = std::sqrt(cuts[0].area), b = std::sqrt(cuts[1].area), c = std::sqrt(cuts[2].area);
     if (!(a > 0 && b > 0 && c > 0) || std::abs(a + c - 2 * b) > STRAIGHT * b) return 0;
     return std::clamp((c - a) / ((a + c) * (PLANES[2] - PLANES[0])), -LARGEST_TAPER, LARGEST_TAPER);

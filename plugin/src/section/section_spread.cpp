@@ -143,7 +143,7 @@ Spread measure_spread(const std::vector<Tile>& patches, const CapsuleFrame& fram
 }  // namespace
 
 std::vector<char> find_hearts(const Chain& chain) {
-    constexpr int SEVERAL = 2;
+    constexpr int SEVERAL = 2;  // organs that begin at one place
     std::vector<int> others(chain.nodes.size(), 0);
     for (const ChainNode& node : chain.nodes)
         if (node.parent >= 0 && node.organ != chain.nodes[size_t(node.parent)].organ) others[size_t(node.parent)]++;

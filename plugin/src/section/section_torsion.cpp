@@ -16,6 +16,7 @@ static double saint_venant(double area, double polar) {
 }
 
 double squareness(double area, double inertia_thin, double inertia_wide) {
+    // Area squared over the root of the product of its second moments; an ellipse has 4 pi.
     constexpr double OCTAGON = 12.53, RECTANGLE = 12;
     const double compactness = area * area / std::sqrt(inertia_thin * inertia_wide);
     return std::clamp((OCTAGON - compactness) / (OCTAGON - RECTANGLE), 0.0, 1.0);

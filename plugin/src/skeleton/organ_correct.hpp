@@ -26,7 +26,6 @@ constexpr MaterialField MATERIAL_FIELDS[] = {
     {"midrib", &Material::midrib},
     {"restitution", &Material::restitution},
 };
-constexpr size_t MATERIAL_FIELD_COUNT = sizeof MATERIAL_FIELDS / sizeof MATERIAL_FIELDS[0];
 
 struct OrganCorrection {
     std::string organ;                                  // its name as it is found without corrections

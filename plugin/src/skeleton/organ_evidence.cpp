@@ -27,7 +27,7 @@ static bool is_bare(const Evidence& plant, size_t r) {
     return region.form != Form::SOLID && stands(region, plant.foot, plant.height) && plant.borne[r] <= 1;
 }
 bool is_grass(const Evidence& plant, size_t r) {
-    constexpr int TUFT = 5;
+    constexpr int TUFT = 5;  // bare stems on the ground that make a tuft
     const Region& region = plant.regions[r];
     return is_bare(plant, r) && region.form == Form::TUBE && plant.height < TREE_HEIGHT && plant.bare >= TUFT;
 }
@@ -66,13 +66,15 @@ bool is_petiole(const Evidence& plant, size_t r) {
 }
 
 bool is_thick_leaf(const Evidence& plant, const Region& region) {
-    constexpr double WIDER = 1.55, SMALL = 0.4;
+    constexpr double WIDER = 1.55, SMALL = 0.4;  // width over thickness, size over that of the plant [-]
     return region.form == Form::TUBE && region.parent >= 0 && !region.same_mesh && plant.height < TREE_HEIGHT &&
            region.tubes + region.sheets + region.solids == 0 && region.box.diagonal().norm() < SMALL * plant.size &&
            region.flatness() > WIDER;
 }
 
 bool surrounds_wood(const Evidence& plant, const Region& region) {
+    // Least size over the largest, size over that of the plant, mean normal, and distance of the middle over the width
+    // [-].
     constexpr double ROUND_ENOUGH = 0.25, LARGE_ENOUGH = 0.15, CLOSED = 0.5, AROUND = 0.2;
     const Vec3 size = region.box.sizes(), middle = region.box.center();
     return plant.has_wood && plant.named[size_t(region.part)] == "blade" &&
@@ -84,6 +86,7 @@ bool surrounds_wood(const Evidence& plant, const Region& region) {
 }
 
 bool surrounds_trunk(const Evidence& plant, size_t r) {
+    // Distance from the trunk over the width, size over that of the plant, width over the larger width [-].
     constexpr double AROUND = 0.2, LARGE = 0.15, ROUND = 0.6;
     const Region& region = plant.regions[r];
     int trunk = region.parent;
@@ -96,20 +99,20 @@ bool surrounds_trunk(const Evidence& plant, size_t r) {
 }
 
 bool bears_fruit(const Evidence& plant, const Region& region) {
-    constexpr int SOME = 3;
+    constexpr int SOME = 3;  // solids on one stem, which are fruits rather than its end
     return region.parent < 0 && region.solids >= SOME && region.tubes + region.sheets == 0 &&
            plant.height > CROWN_HEIGHT;
 }
 
 bool is_post(const Evidence& plant, const Region& region) {
-    constexpr double UPRIGHT = 2.5, LOW = 0.2;
+    constexpr double UPRIGHT = 2.5, LOW = 0.2;  // height over width; height of its begin over the plant's [-]
     const Vec3 size = region.box.sizes();
     return region.box.min().y() < plant.foot + AT_FOOT * plant.height &&
            region.begin.y() < plant.foot + LOW * plant.height && size.y() > UPRIGHT * std::max(size.x(), size.z());
 }
 
 bool is_arm(const Evidence& plant, const Region& region) {
-    constexpr double LONG = 2.5, THINNER = 0.8;
+    constexpr double LONG = 2.5, THINNER = 0.8;  // length over thickness, radius over that of its parent [-]
     if (region.parent < 0 || region.same_mesh) return false;
     const Region& parent = plant.regions[size_t(region.parent)];
     return parent.form != Form::SHEET && region.length > 2 * LONG * region.radius() &&
@@ -136,7 +139,7 @@ static std::vector<double> share_of_crowns(const Regions& cut, const std::vector
 // Returns the weight of each part's name. If all parts have the same name, that is the plant's, such as a leaf's on all
 // of a bean.
 static std::vector<double> weigh_names(const Surface& surface, const std::vector<std::string>& named) {
-    constexpr double NODE = 3, MATERIAL = 2.5, SAME = 1;
+    constexpr double NODE = 3, MATERIAL = 2.5, SAME = 1;  // votes, as those of organ_votes.cpp
     const bool differ =
         std::any_of(named.begin(), named.end(), [&](const std::string& one) { return one != named[0]; });
     std::vector<double> weights;

@@ -45,7 +45,7 @@ static bool has_border(const Topology& topology, const std::map<EdgeEnds, int>& 
 // are not. Makes them blades.
 void find_cards(const Surface& surface, const Topology& topology, const std::vector<char>& sheets,
                 std::vector<std::string>& named) {
-    constexpr double NEARLY_ALL = 0.9;
+    constexpr double NEARLY_ALL = 0.9;  // share of a part's triangles [-]
     std::vector<char> is_card(named.size(), 0);
     bool has_wood = false;
     if (std::find(named.begin(), named.end(), "branch") == named.end()) return;
@@ -248,7 +248,7 @@ static std::array<float, 4> color_of_kind(const std::string& kind) {
 
 // Returns whether a file has no colours: all parts are grey, black or white, without texture or vertex colours.
 static bool is_colorless(const Surface& surface) {
-    constexpr float GREY = 0.02f;
+    constexpr float GREY = 0.02f;  // difference of channels, of 1, up to which a colour is none
     if (!surface.colors.empty()) return false;
     return std::all_of(surface.parts.begin(), surface.parts.end(), [](const Part& part) {
         const auto& c = part.color;

@@ -46,7 +46,7 @@ int stem_of(const std::vector<Region>& regions, int r) {
 
 // Joins the parts of a flower: those on one stem that are near each other, by their size.
 void join_petals(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
-    constexpr double NEAR = 0.15;
+    constexpr double NEAR = 0.15;  // gap over the smaller one's size [-]
     constexpr size_t MOST = 2000;  // beyond that it is no plant with flowers but a meadow
     std::vector<int> petals;
     for (size_t r = 0; r < regions.size(); r++)
@@ -108,7 +108,7 @@ void join_hairs(const std::vector<Region>& regions, const std::vector<FoundOrgan
 // Joins the leaves of crowns that have hundreds of them: those of one part that begin near each other are a cluster.
 void join_clusters(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, double size,
                    UnionFind& sets) {
-    constexpr int MOST_LEAVES = 120;
+    constexpr int MOST_LEAVES = 120;  // that stay organs of their own
     constexpr double CLUSTER = 0.15;  // edge of a cluster, as a share of the plant's size
     std::vector<int> leaves;
     for (size_t r = 0; r < regions.size(); r++)

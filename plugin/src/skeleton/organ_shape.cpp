@@ -53,7 +53,8 @@ static std::vector<Lump> measure_lumps(const Topology& topology, const std::vect
 // Finds lumps that stand for many leaves: about as wide as high, with nearly as much surface as a ball of that
 // size at least, large, and held up by something else unless they may stand on the ground.
 static std::vector<char> find_round(const std::vector<Lump>& lumps, bool on_ground, double solid) {
-    constexpr double ROUND = 0.35, LARGE = 0.2, HELD_UP = 0.12;
+    constexpr double ROUND = 0.35, LARGE = 0.2,
+                     HELD_UP = 0.12;  // least size over the largest; size, and height of its foot, over the whole's [-]
     Eigen::AlignedBox3d whole;
     for (const Lump& lump : lumps) whole.extend(lump.box);
     std::vector<char> round(lumps.size(), 0);
@@ -70,7 +71,7 @@ static std::vector<char> find_round(const std::vector<Lump>& lumps, bool on_grou
 
 // Finds lumps whose triangles share nearly all their edges.
 static std::vector<char> find_skins(const Topology& topology, const std::vector<int>& lump_of, size_t count) {
-    constexpr double NEARLY_ALL = 0.8;
+    constexpr double NEARLY_ALL = 0.8;  // share of a lump's edges [-]
     std::vector<double> shared(count, 0.0), all(shared);
     for (int lump : lump_of) all[size_t(lump)] += 3;
     for (const SharedEdge& edge : find_shared_edges(topology)) {

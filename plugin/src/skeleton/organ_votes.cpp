@@ -140,7 +140,7 @@ FoundOrgan vote(const Evidence& plant, size_t r) {
 
 // Makes sheets crowns that are of one mesh and part with a much larger one: edges and torn pieces of it, no leaves.
 void give_edges_to_crowns(const std::vector<Region>& regions, std::vector<FoundOrgan>& found) {
-    constexpr double LARGER = 4;
+    constexpr double LARGER = 4;                   // area over area [-]
     std::map<std::pair<int, int>, size_t> crowns;  // the largest of each mesh and part
     for (size_t r = 0; r < regions.size(); r++) {
         if (found[r].kind != "crown") continue;

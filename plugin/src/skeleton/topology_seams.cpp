@@ -23,7 +23,7 @@ static void find_nearest(const Topology& topology, const Part& part, const Vec3&
 }
 
 void join_at(const Surface& surface, const std::vector<Seam>& seams, Topology& topology) {
-    constexpr int ROUNDS = 8;
+    constexpr int ROUNDS = 8;  // between two parts at most
     UnionFind sets(size_t(topology.component_count));
     std::vector<Joint> joints;
     const auto keep = [&](const Joint& joint) {

@@ -8,7 +8,7 @@
 
 namespace frond {
 
-constexpr int ROWS_AT_ONCE = 4;
+constexpr int ROWS_AT_ONCE = 4;  // as many as lanes
 
 inline int floor_to_rows(int row) {
     return row / ROWS_AT_ONCE * ROWS_AT_ONCE;

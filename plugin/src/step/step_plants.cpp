@@ -14,7 +14,7 @@ namespace {
 // Takes the rest of a step, of one plant or of a batch, when no contact is left to push them; plants that may break
 // move their capsules later.
 void finish(const World& world, PlantBody* const* bodies, int count, const Surroundings& surroundings) {
-    constexpr double LATELY = 0.3;
+    constexpr double LATELY = 0.3;  // share of the last step in the mean of a plant's times [-]
     for (int i = 0; i < count; i++) {
         PlantBody& body = *bodies[i];
         Plant& plant = *body.plant;
@@ -37,7 +37,7 @@ void finish(const World& world, PlantBody& body, const Surroundings& surrounding
 
 // Steps a modal plant: queries the air once in TURNS substeps, and moves the capsules once in SEEN.
 void sway(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
-    constexpr uint64_t TURNS = 4, SEEN = 8;
+    constexpr uint64_t TURNS = 4, SEEN = 8;  // substeps, between which its motion is exact
     const uint64_t turn = world.substep + uint64_t(body.index);
     step_modal(*body.plant, surroundings, h, turn % TURNS == 0);
     body.level.is_due = turn % SEEN == 0;

@@ -25,7 +25,7 @@ inline Vec3 from_bullet(const btVector3& v) {
 // Moves a frame by a share of a way and of a rotation vector, as btTransformUtil::integrateTransform does, but by our
 // own sine and cosine; like there the angle is an eighth of a turn at most.
 inline btTransform moved(const btTransform& from, const Vec3& way, const Vec3& turn, double share) {
-    constexpr double MOST = 0.25 * PI, SMALL = 1e-9;
+    constexpr double MOST = 0.25 * PI, SMALL = 1e-9;  // angles [rad]; below the second, sine is its angle
     const double whole = turn.norm(), half = 0.5 * std::min(share * whole, MOST);
     const Vec3 axis = turn * (whole < SMALL ? 0.5 * share : frond::sin(half) / whole);
     const btVector3 v = to_bullet(axis);

@@ -44,7 +44,7 @@ void wake_blown(World& world) {
 
 // Returns whether all numbers agree within `distance`. Begins at the end, where points move most.
 bool are_within(const VecX& a, const VecX& b, double distance) {
-    constexpr Eigen::Index MANY = 24;
+    constexpr Eigen::Index MANY = 24;  // numbers compared at once
     if (a.size() != b.size()) return false;
     for (Eigen::Index end = a.size(); end > 0; end -= MANY) {
         const Eigen::Index begin = std::max(end - MANY, Eigen::Index(0));
