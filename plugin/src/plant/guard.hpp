@@ -53,8 +53,6 @@ void damp_recovering(const Plant& plant, SolveSettings& settings);
 // Begins, continues and ends the recovery from states that no admissible load can reach, after a step of h [s].
 void watch_recovery(Plant& plant, double h);
 
-// Returns whether, after a step, all nodes are slower than a vibrating plant's at its turning points.
-bool hardly_moves(const Plant& plant, double h);
 // Returns whether tets are inside out; false if the mechanics move the chain.
 bool is_inside_out(const Plant& plant);
 // Returns whether, after a step, the plant rests with tets inside out.

@@ -127,7 +127,8 @@ bool start_from_modelled(Plant& plant) {
     return true;
 }
 
-bool hardly_moves(const Plant& plant, double h) {
+// Returns whether, after a step, all nodes are slower than a vibrating plant's at its turning points.
+static bool hardly_moves(const Plant& plant, double h) {
     constexpr double SLOW = 0.002;  // plant sizes per second, slower than any vibration at its turning points
     const double slow = SLOW * double(plant.size);
     return plant.step.v_good.lpNorm<Eigen::Infinity>() < slow && farthest_way(plant) < slow * h;

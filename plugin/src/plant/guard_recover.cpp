@@ -44,13 +44,6 @@ bool is_lost(const Plant& plant) {
     return plant.trouble & FROND_TROUBLE_RETRIED && !plant.report.converged;
 }
 
-// Returns whether the search failed while the plant hardly moves, though nothing pulls or presses it.
-bool found_no_way(const Plant& plant, double h) {
-    const bool is_pulled =
-        plant.input.has_user_force || plant.step.loads.springs.size() > plant.input.pin_springs.size();
-    return is_lost(plant) && !is_pulled && !plant.step.is_pressed && hardly_moves(plant, h);
-}
-
 }  // namespace
 
 void damp_recovering(const Plant& plant, SolveSettings& settings) {
@@ -60,8 +53,7 @@ void damp_recovering(const Plant& plant, SolveSettings& settings) {
 }
 
 void watch_recovery(Plant& plant, double h) {
-    constexpr float SWAYS = 1.5;    // duration of a recovery, in periods of the slowest mode [-]
-    constexpr float CAUGHT = 0.25;  // time after which a plant that nothing pulls counts as caught, in such periods [-]
+    constexpr float SWAYS = 1.5;  // duration of a recovery, in periods of the slowest mode [-]
     const float sway = float(2 * plant.rest_time);
     bool ends = false;
     if (plant.state.recovers_for > 0) {
@@ -70,15 +62,12 @@ void watch_recovery(Plant& plant, double h) {
         ends = plant.state.recovers_for == 0 && !plant.step.is_pressed;
     } else if ((plant.step.is_off_course || is_lost(plant)) && holds_more_than(plant, plant.step.x_good, TORN)) {
         plant.state.recovers_for = SWAYS * sway;
-    } else {
-        plant.state.recovers_for = found_no_way(plant, h) ? plant.state.recovers_for - float(h) : 0;
     }
     // A plant that is still heavily strained or finds no solution by now, or rests with tets inside out, would stay so
     // for ever.
     const bool is_folded =
         ends && (is_lost(plant) || is_inside_out(plant) || holds_more_than(plant, plant.state.motion.x, FOLDED));
-    const bool is_caught = -plant.state.recovers_for > CAUGHT * sway || is_caught_inside_out(plant, h);
-    if (!(is_folded || is_caught) || !start_from_modelled(plant)) return;
+    if (!(is_folded || is_caught_inside_out(plant, h)) || !start_from_modelled(plant)) return;
     plant.trouble |= FROND_TROUBLE_REWOUND;
     plant.state.recovers_for = sway;
 }

@@ -115,11 +115,9 @@ struct SavedState {
     BlendOut blend_out;  // offset of the cage from where the mechanics have it
     // Lengths at which fibres pull, over their own, after an entanglement; else empty [-].
     std::vector<double> fibre_give;
-    VecX fibre_force;  // of taut fibres on the nodes in the last step, model frame [N]; empty: all are slack
-    int substeps = 1;  // of the next step
-    // Time left to recover from a state that no admissible load can reach; if negative, time for which the plant has
-    // been caught where searches find no solution [s].
-    float recovers_for = 0;
+    VecX fibre_force;           // of taut fibres on the nodes in the last step, model frame [N]; empty: all are slack
+    int substeps = 1;           // of the next step
+    float recovers_for = 0;     // time left to recover from a state that no admissible load can reach [s]
     bool is_touched = false;    // in contact, which is resolved over whole steps
     bool is_entangled = false;  // deep in itself or another plant; crossed leaves come apart only by being stretched
 };
