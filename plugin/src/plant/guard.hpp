@@ -32,7 +32,8 @@ double work_of_weight(const Plant& plant, const VecX& way);
 double lifting_energy(const Plant& plant);
 
 // Returns whether what turns is inflated by the integrator's forces at the start of the step, in a cage: rods are
-// retracted. Implicit Euler takes the steps of what is touched.
+// retracted. Implicit Euler takes the steps of what is touched; what nothing holds may spin by a third of a radian in a
+// step and stay on its course.
 bool may_inflate(const Plant& plant);
 // Sets is_off_course after a solve over h [s] from x_good and v_good, and returns whether the plant may go there: it
 // did not run away, nor gain energy that the loads and contacts cannot have given. What stayed on its course is not

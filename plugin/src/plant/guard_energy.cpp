@@ -70,9 +70,11 @@ static bool leads_springs(const Plant& plant) {
 }
 
 bool may_inflate(const Plant& plant) {
+    const Motion& motion = plant.state.motion;
     const bool is_implicit_euler =
         plant.state.is_touched || plant.input.settings.integrator == FROND_INTEGRATOR_IMPLICIT_EULER;
-    return !plant.follow && is_implicit_euler;
+    const bool spins = plant.input.pin_springs.empty() && next_pinned(motion, 0) == int(motion.pinned.size());
+    return !plant.follow && (is_implicit_euler || spins);
 }
 
 bool keeps_course(Plant& plant, double h) {
