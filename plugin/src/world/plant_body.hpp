@@ -68,9 +68,9 @@ struct PlantBody : btSoftBody {
     bool is_hidden = false;             // hidden from sleepers and static bodies: it sleeps, and nothing touches it
     bool is_taken_back = false;         // Frond itself deletes it, not the host
     bool is_looked_at = false;          // asleep, but decompressed for reading
+    uint32_t troubled_in = UINT32_MAX;  // lower half of the substep of which `trouble` tells; at first none
     uint64_t met_in = UINT64_MAX;       // substep in which something last came near it; at first none
-    uint64_t troubled_in = UINT64_MAX;  // substep of which `trouble` tells; at first none
-    uint32_t trouble = 0;               // FROND_TROUBLE_*
+    uint16_t trouble = 0;               // FROND_TROUBLE_*
     // Substeps in which overlaps are still recorded in grown_in; 2 if it starts asleep, as it then wakes without pairs.
     int16_t new_for = 1;
     int filter_group = 0, filter_mask = 0;  // the host's filter, while it is hidden

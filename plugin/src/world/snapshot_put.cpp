@@ -115,7 +115,7 @@ void put_snapshot(World& world, Snapshot snapshot) {
             reset_plant(*world.bodies[i]);
     for (const auto& body : world.bodies) {
         wake(*body);
-        body->troubled_in = UINT64_MAX;
+        body->troubled_in = UINT32_MAX;
     }
     world.time = snapshot.time;
     if (world.wind) world.wind->travelled = snapshot.travelled;
