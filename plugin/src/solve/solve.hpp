@@ -140,9 +140,9 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
 // with the matrix of that step's last solve, so that elastic forces respond within the step; held nodes get none.
 // Returns false if there is no solution.
 bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& impulse, VecX& dv);
-// Computes by how much velocities change in a step after one that changed them by `before`, with the same loads and
-// impulses: change = A^-1 M before, since a plant resists what it is given within the step. Returns false if there is
-// no solution.
+// Estimates by how much velocities change in a step after one that changed them by `before`, with the same loads and
+// impulses: change = A^-1 M before, in which elastic forces resist that change alone, not the velocity there was.
+// Returns false if there is no solution.
 bool go_on_changing(Workspace& workspace, const SolveSettings& settings, const VecX& before, VecX& change);
 // Returns the derivative of positions by velocities at the end of the last step [s].
 double reach_of(const Workspace& workspace);
