@@ -207,7 +207,7 @@ TEST(Fibres, CarryWhatHangsOnThem) {
         for (int i = 0; i < 20; i++) {
             step_plant(*plant, surroundings, H);
             given += H * (grab_force(*plant, plant->input.grabs.back()).y() - 9.81 * mass.sum());
-            is_taut |= plant->state.fibre_force.size() > 0;
+            is_taut |= plant->state.stretched > 0;
         }
         for (int i = 0; i < mass.size(); i++) momentum += mass[i] * point(plant->state.motion.v, i).y();
         EXPECT_TRUE(is_taut);

@@ -172,7 +172,8 @@ TEST_P(EveryShape, WhatIsFoldedAfterItsRecoveryStartsFromItsModelledShape) {
             }
             EXPECT_EQ(seen(*plant), seen(*unread)) << seed;
         }
-    if (!mechanics(GetParam(), 1).moves_chain) {
+    // Neo-Hookean tets and rods unfold by themselves.
+    if (GetParam() == FROND_MECHANICS_TET_COROTATIONAL) {
         EXPECT_GT(starts, 0);
     }
 }

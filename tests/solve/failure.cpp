@@ -64,7 +64,7 @@ TEST(Failure, LeavesTheMotionUnchanged) {
                 rig.loads.gravity = {0, -9.81, 0};
                 rig.steps(3, H);
                 const Motion good = rig.motion;
-                const Loads loads = rig.loads;
+                const Vec3 gravity = rig.loads.gravity;  // the only load
                 const RigSettings settings = rig.settings;
                 double h = H;
                 misuse.spoil(rig, h);
@@ -75,12 +75,13 @@ TEST(Failure, LeavesTheMotionUnchanged) {
 
                 // After the fault is removed, the same workspace continues as if nothing had happened.
                 rig.motion = good;
-                rig.loads = loads;
+                rig.loads = {};
+                rig.loads.gravity = gravity;
                 rig.settings = settings;
                 ASSERT_TRUE(rig.step(H).ok) << misuse.name;
                 Rig twin(box_model(1, 3, 1, {0.1, 0.3, 0.1}), settings);
                 twin.motion = good;
-                twin.loads = loads;
+                twin.loads.gravity = gravity;
                 ASSERT_TRUE(twin.step(H).ok);
                 EXPECT_EQ(rig.motion.x, twin.motion.x) << misuse.name;
             }

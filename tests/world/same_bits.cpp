@@ -37,15 +37,15 @@ struct Row {
 };
 const Row ROWS[] = {
     {"tets", "corn/corn.obj", FROND_MECHANICS_TET_COROTATIONAL, 1, 0, false, FROND_WIND_PROFILE_LOG, 6,
-     0xeba168c010aa791a, 0x5c854efde1b9a2c3},
+     0x4cf9cd1ede4a631c, 0x24192bdb9d76b992},
     {"rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_POWER, 6, 0xd2265d7107b0e706,
      0x86e960448fb57874},
     {"neo_hookean", "wheat/wheat.obj", FROND_MECHANICS_TET_NEOHOOKEAN, 1, 0, false, FROND_WIND_PROFILE_LOG, 3,
-     0xd2204e3032539e2d, 0x43d85156a2d33107},
+     0x9beb5eb7238cde0f, 0x53d080623977d712},
     {"twig", "urdf/sapling.urdf", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_LOG, 9, 0xab65759330378ed7,
      0x4f924654a5c0ddc5},
     {"ball_on_tets", "corn/corn.obj", FROND_MECHANICS_TET_COROTATIONAL, 1, 0, true, FROND_WIND_PROFILE_LOG, 0,
-     0x7cd3482763adf12b, 0xd74093c5c3c91ccb},
+     0x521d9082d02a85ad, 0x91603842e9fb1ab4},
     {"ball_on_rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, true, FROND_WIND_PROFILE_LOG, 0, 0x27cc98fffe95409e,
      0x4c3d74d72111e074},
     {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0x1f289ae8bfb98c13,

@@ -121,7 +121,7 @@ TEST(Trouble, TellsOfFibresThatPullBack) {
     must(frond_grab_create(plants[0], {0, 0.4, 0}, 100, &grab));
     must(frond_grab_move(grab, {0, 0.2, 0}));
     for (int i = 0; i < 30; i++) must(frond_world_step(world, H));
-    EXPECT_TRUE(trouble_of(plants[0]) & FROND_TROUBLE_PULLED_BACK);
+    EXPECT_TRUE(trouble_of(plants[0]) & FROND_TROUBLE_TAUT);
     EXPECT_EQ(trouble_of(plants[1]), 0u);
     EXPECT_EQ(trouble_of(world), 0u);
     frond_world_destroy(world);

@@ -64,13 +64,13 @@ enum {
     /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
      * there for the step. Remedy: have the function of frond_world_set_wind_field write every velocity. */
     FROND_TROUBLE_BAD_WIND = 1 << 7,
-    /* Bits of frond_plant_get_trouble alone: nothing went wrong, but the plant was moved without a force. */
+    /* Bits of frond_plant_get_trouble alone: nothing went wrong, but more than its loads moved the plant. */
     /* Cause: the plant overlapped itself or another plant. Effect: it was moved apart, without velocity. Remedy: plants
      * that stand farther apart. */
     FROND_TROUBLE_PARTED = 1 << 8,
-    /* Cause: organs in a cage were longer than their fibres allow. Effect: these drew their nodes back. Remedy: rods,
-     * which keep their length by themselves. */
-    FROND_TROUBLE_PULLED_BACK = 1 << 9,
+    /* Cause: organs in a cage were drawn out by more than 3 %. Effect: their fibres pulled, which takes more solves.
+     * Remedy: rods, which keep their length by themselves. */
+    FROND_TROUBLE_TAUT = 1 << 9,
     /* Cause: the viewer's distance or a budget changed the plant's detail, or a touch did. Effect: other mechanics took
      * over its shape and motion, and what they cannot have blends out within a second. Remedy: frond_world_set_detail
      * with other distances or without a budget. */
@@ -569,7 +569,8 @@ FROND_API frond_result frond_plant_unpin(frond_plant plant, int node);
 /* Moves a pinned node [m] within the next step; of rods that one or two nodes hold, by at most half the mean length of
  * a capsule in each step. BAD_ARGUMENT if it is not pinned. */
 FROND_API frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 position);
-/* Adds a force [N] on a node for the next frond_world_step (all its substeps) only. Forces on one node add up. */
+/* Adds a force [N] on a node for the next frond_world_step (all its substeps) only. Forces on one node add up. Where a
+ * cage is softer in tension than its organ, as in leaves, the capsule nearest to the node bears force and moment. */
 FROND_API frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force);
 /* Gives the render mesh as it is now, made when it is requested, once a step; the arrays are the plant's own until
  * its next step. With FROND_EFFECT_SURFACE off, in the plant or its world, it stays as it was, and normals do with

@@ -82,17 +82,14 @@ struct LookAtWays {
 struct LookForTaut {
     const Batch& step;
     const Fibres& fibres;
-    const Chain& chain;
     unsigned& taut;
     template <class S>
     FROND_INLINE void run() const {
         S slack = constant<S>(1);
         for (const Fibre& fibre : fibres.list) {
-            const size_t node = size_t(fibre.node), parent = size_t(chain.nodes[node].parent);
-            const std::vector<Attachment>& attachments = step.system->chain;
-            const Lanes3<S> way = attachment_sum<S>(attachments[node], step.x_end.data()) -
-                                  attachment_sum<S>(attachments[parent], step.x_end.data());
-            slack = select(dot(way, way) < fibre.length * fibre.length * NEARLY, slack, S{});
+            const Lanes3<S> way =
+                attachment_sum<S>(fibre.end, step.x_end.data()) - attachment_sum<S>(fibre.begin, step.x_end.data());
+            slack = select(dot(way, way) < squared(fibre.length) * NEARLY, slack, S{});
         }
         taut = bits_of(slack == 0.0);
     }
@@ -101,7 +98,7 @@ struct LookForTaut {
 unsigned find_taut(const Batch& step, const Plant& plant, frond_effects effects) {
     unsigned taut = 0;
     if (plant.fibres && (effects & FROND_EFFECT_FIBRES))
-        run_in_lanes(step.lanes, LookForTaut{step, *plant.fibres, plant.model->chain, taut});
+        run_in_lanes(step.lanes, LookForTaut{step, *plant.fibres, taut});
     return taut;
 }
 
@@ -160,6 +157,7 @@ void gather_motions(Batch& step, Plant* const* plants, int count, const Surround
 void take_loads(Plant& plant, const Batch& step, int lane) {
     plant.step.loads.drags.clear();
     plant.step.loads.springs.clear();
+    plant.step.loads.fibres = nullptr;
     plant.step.loads.force.resize(0);
     for (int c = 0; c < 3; c++) plant.step.loads.gravity[c] = step.gravity[size_t(c * step.lanes + lane)];
 }
@@ -171,7 +169,7 @@ bool is_plausible(Plant& plant, const Batch& step, int lane, double h) {
     return plausible && !is_far_out(plant);
 }
 
-// Leaves in the plant all that solve_plant() leaves of a healthy step; `goes_on`: fibres or contacts move it from
+// Leaves in the plant all that solve_plant() leaves of a healthy step; `goes_on`: contacts move it from
 // there. False, with the motion unchanged: the plant has to be stepped alone.
 bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& settings, bool may_be_off, bool goes_on,
                double h) {
@@ -190,8 +188,6 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     take_loads(plant, step, lane);
     plant.step.is_off_course = plant.step.starts_anew = false;
     plant.step.push = nullptr;
-    plant.step.unpulled = nullptr;
-    plant.state.fibre_force.resize(0);
     if (is_asked && !is_plausible(plant, step, lane, h)) {
         motion.x.swap(x);
         motion.v.swap(v);
@@ -204,7 +200,7 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     }
     history.x_prev.swap(x);
     history.v_prev.swap(v);
-    // Until the next step only its fibres and contacts can move the plant without dropping its history.
+    // Until the next step only its contacts can move the plant without dropping its history.
     history.x_end.resize(0);
     history.v_end.resize(0);
     if (goes_on) {
@@ -238,12 +234,12 @@ void take_factors(const Batch& step, Plant* const* plants, unsigned which) {
     take_apart(step, workspaces.data());
 }
 
-// Pulls back a plant's taut fibres, and leaves it ready for contacts, with its own drags.
-void go_on_alone(Plant& plant, const Batch& step, int lane, frond_effects effects, double h) {
+// Leaves a plant ready for contacts, with its own drags.
+void go_on_alone(Plant& plant, const Batch& step, int lane, frond_effects effects) {
     plant.state.blown.setZero();
     take_drags(step, lane, plant.step.loads.drags);
     plant.step.has_fibres = effects & FROND_EFFECT_FIBRES;
-    finish_solving(plant, h);
+    finish_solving(plant);
 }
 
 // Returns the lanes whose plants wait for those of others, a bit each.
@@ -270,10 +266,10 @@ void solve_in_lanes(Plant* const* plants, int count, int lanes, const Surroundin
     unsigned alone = step_batch(step, settings, plants[0]->state.motion.pinned, h, h_before), far_away, off_course;
     run_in_lanes(step.lanes,
                  LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course});
-    alone |= far_away;
+    alone |= far_away | find_taut(step, *plants[0], effects);
     air_forces(step, space->forces);
     const unsigned may_yield = find_yielding(step, effects);
-    const unsigned going_on = find_taut(step, *plants[0], effects) | find_waiting(plants, count);
+    const unsigned going_on = find_waiting(plants, count);
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
     run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
     take_factors(step, plants, going_on & ~alone & ((1u << count) - 1));
@@ -289,7 +285,7 @@ void solve_in_lanes(Plant* const* plants, int count, int lanes, const Surroundin
         plant.trouble = is_in(bad_wind) ? FROND_TROUBLE_BAD_WIND : 0;
         plant.step.may_yield = is_in(may_yield | going_on);
         report_step(plant, step, lane, ms_air / count, ms_solve / count);
-        if (is_in(going_on)) go_on_alone(plant, step, lane, effects, h);
+        if (is_in(going_on)) go_on_alone(plant, step, lane, effects);
     }
     return_batch(*pool, space);
 }

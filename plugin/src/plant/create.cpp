@@ -100,7 +100,7 @@ std::shared_ptr<const ModalBasis> modal_basis_of(const Plant& plant) {
 }
 
 // Returns null if the cage needs no fibres.
-static std::shared_ptr<const Fibres> fibres_of(const Plant& plant) {
+static std::shared_ptr<const Fibres> shared_fibres(const Plant& plant) {
     const CageNodes& nodes = *plant.nodes;
     const auto fibres =
         shared_of<Fibres>(plant.model, nodes.order, [&] { return make_fibres(*plant.model, nodes, nodes.modelled); });
@@ -132,8 +132,8 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.view.lead = plant.state.stepped_by = 0;
     plant.fibres = nullptr;
     plant.state.fibre_give.clear();
-    plant.state.fibre_force.resize(0);
-    if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = fibres_of(plant);
+    plant.state.stretched = 0;
+    if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = shared_fibres(plant);
     if (mechanics(which).moves_chain)
         plant.follow = shared_of<Follow>(plant.model, nodes.order,
                                          [&] { return make_follow(*plant.model, nodes, nodes.modelled); });

@@ -1,13 +1,14 @@
-// In: a model whose cage is softer in tension than its organs, and a plant of it. Out: its fibres, and which of them
-// are taut.
-#include "plant/fibre_rows.hpp"
+// In: a model whose cage is softer in tension than its organs, and a plant of it. Out: its fibres, whether one is taut,
+// and what bears a pull beside them.
+#include "plant/fibres.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "cage/tet_geometry.hpp"
 #include "plant/follow.hpp"
+#include "plant/guard.hpp"
 #include "plant/plant.hpp"
+#include "solve/springs.hpp"
 
 namespace frond {
 
@@ -30,103 +31,41 @@ std::vector<double> lack_of_organs(const Model& model, int order) {
     return tissue;
 }
 
-// Adds rows from each grabbed vertex to both ends of its capsule.
-void add_rows_of_grabs(const Plant& plant, std::vector<FibreRow>& rows) {
-    const Model& model = *plant.model;
-    const Fibres& fibres = *plant.fibres;
-    for (const Grab& grab : plant.input.grabs) {
-        const int node = model.chain.vertex_node[size_t(grab.vertex)], fibre = fibres.of_node[size_t(node)];
-        if (fibre < 0 || fragment_of_vertex(plant, size_t(grab.vertex))) continue;
-        for (const int end : {node, model.chain.nodes[size_t(node)].parent}) {
-            const Vec3& place = model.chain.nodes[size_t(end)].position;
-            const double length = (model.surface.positions[size_t(grab.vertex)] - place).norm();
-            rows.push_back({chain_attachment(plant, end), vertex_attachment(plant, grab.vertex), (1 + SLACK) * length,
-                            fibres.list[size_t(fibre)].stiffness});
+// Returns the point of a fibre that is nearest to a place of the modelled shape; of one between quadratic tets, which
+// have too many nodes, its nearer end.
+Attachment on_axis(const Fibre& fibre, const VecX& modelled, const Vec3& place) {
+    const Vec3 begin = attachment_place(fibre.begin, modelled), way = attachment_place(fibre.end, modelled) - begin;
+    const double along = std::clamp((place - begin).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    if (fibre.begin.count + fibre.end.count > Attachment::MOST) return along < 0.5 ? fibre.begin : fibre.end;
+    Attachment axis;
+    const auto add = [&](const Attachment& end, double share) {
+        for (size_t k = 0; k < size_t(end.count); k++) {
+            axis.node[size_t(axis.count)] = end.node[k];
+            axis.weight[size_t(axis.count++)] = share * end.weight[k];
         }
-    }
+    };
+    add(fibre.begin, 1 - along);
+    add(fibre.end, along);
+    return axis;
 }
 
-// Returns the length of a row over that from which it pulls [-].
-double drawn_out(const Plant& plant, const FibreRow& row) {
-    const VecX& x = plant.state.motion.x;
-    return (attachment_place(row.end, x) - attachment_place(row.begin, x)).norm() / row.length;
-}
-
-// Adds rows from nodes that a force of the host pulls to both ends of their fibre, of several nodes of one from that
-// which is drawn out most: tissue holds what pulls at a point of an organ to the organ. Returns whether one is taut.
-bool add_rows_of_forces(const Plant& plant, std::vector<FibreRow>& rows) {
-    if (!plant.input.has_user_force) return false;
-    const Fibres& fibres = *plant.fibres;
-    std::map<std::array<int, 2>, FibreRow> most;  // by fibre and end
-    const VecX& given = plant.input.forces->on_nodes;
-    for (int n = 0; n < given.size() / 3; n++) {
-        const int fibre = fibres.of_cage_node[size_t(n)];
-        if (fibre < 0 || point(given, n).isZero(0)) continue;
-        const Fibre& tied = fibres.list[size_t(fibre)];
-        if (fragment_of_chain_node(plant, size_t(tied.node))) continue;
-        Attachment node;
-        node.count = 1;
-        node.node[0] = n;
-        node.weight[0] = 1;
-        for (const int end : {tied.node, plant.model->chain.nodes[size_t(tied.node)].parent}) {
-            const Vec3& place = plant.model->chain.nodes[size_t(end)].position;
-            const double length = (point(plant.nodes->modelled, n) - place).norm();
-            if (!(length > 0)) continue;
-            const FibreRow row = {chain_attachment(plant, end), node, (1 + SLACK) * length, tied.stiffness};
-            const auto [known, is_new] = most.insert({{fibre, end}, row});
-            if (!is_new && drawn_out(plant, row) > drawn_out(plant, known->second)) known->second = row;
-        }
-    }
-    bool any = false;
-    for (const auto& [place, row] : most) {
-        any = any || drawn_out(plant, row) > 1;
-        rows.push_back(row);
-    }
-    return any;
-}
-
-// Returns the present length of a fibre over its slack length [-].
-double drawn_out(const Plant& plant, const Fibre& fibre) {
-    const std::vector<Vec3>& places = plant.view.chain_positions;
-    const size_t node = size_t(fibre.node), parent = size_t(plant.model->chain.nodes[node].parent);
-    return (places[node] - places[parent]).norm() / fibre.length;
+// Returns what bears a pull at a place of the modelled shape on the capsule of a fibre: nodes of the elements in which
+// its ends are, with the least weights whose sum is one and whose mean place is that, so that forces keep their
+// moments.
+Attachment tied_to(const Fibre& fibre, const VecX& modelled, const Vec3& place) {
+    Attachment tied;
+    for (const Attachment* end : {&fibre.end, &fibre.begin})
+        for (size_t k = 0; k < size_t(end->count) && tied.count < Attachment::MOST; k++)
+            tied.node[size_t(tied.count++)] = end->node[k];
+    Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, Attachment::MOST> from(4, tied.count);
+    for (int k = 0; k < tied.count; k++) from.col(k) << point(modelled, tied.node[size_t(k)]) - place, 1.0;
+    const Eigen::Matrix4d squares = from * from.transpose();
+    const Eigen::Vector4d multipliers = squares.ldlt().solve(Eigen::Vector4d::Unit(3));
+    for (int k = 0; k < tied.count; k++) tied.weight[size_t(k)] = from.col(k).dot(multipliers);
+    return tied;
 }
 
 }  // namespace
-
-std::vector<FibreRow> find_fibre_rows(const Plant& plant) {
-    constexpr double NEARLY = 0.985;  // length over that of a taut fibre [-]
-    std::vector<FibreRow> rows;
-    const std::vector<Fibre>& list = plant.fibres->list;
-    bool any = false;
-    for (size_t i = 0; i < list.size(); i++) {
-        const Fibre& fibre = list[i];
-        const double give = plant.state.fibre_give.empty() ? 1 : plant.state.fibre_give[i],
-                     drawn = drawn_out(plant, fibre) / give;
-        if (!(drawn > NEARLY) || fragment_of_chain_node(plant, size_t(fibre.node))) continue;
-        any = any || drawn > 1;
-        const int parent = plant.model->chain.nodes[size_t(fibre.node)].parent;
-        rows.push_back({chain_attachment(plant, parent), chain_attachment(plant, fibre.node), give * fibre.length,
-                        fibre.stiffness});
-    }
-    any |= add_rows_of_forces(plant, rows);
-    if (!any) return {};
-    add_rows_of_grabs(plant, rows);
-    return rows;
-}
-
-void let_fibres_give(Plant& plant, double h) {
-    constexpr double RATE = 0.02;  // [1/s]
-    const std::vector<Fibre>& list = plant.fibres->list;
-    if (plant.state.is_entangled) plant.state.fibre_give.resize(list.size(), 1);
-    bool gives = false;
-    for (size_t i = 0; i < plant.state.fibre_give.size(); i++) {
-        double& give = plant.state.fibre_give[i];
-        give = plant.state.is_entangled ? std::max(give, drawn_out(plant, list[i])) : std::max(1.0, give - RATE * h);
-        gives = gives || give > 1;
-    }
-    if (!gives) plant.state.fibre_give.clear();
-}
 
 Fibres make_fibres(const Model& model, const TetNodes& nodes, const VecX& modelled) {
     constexpr double LEAST = 0.5;  // share of an organ's tensile stiffness that its cage has to lack [-]
@@ -134,25 +73,145 @@ Fibres make_fibres(const Model& model, const TetNodes& nodes, const VecX& modell
     fibres.of_node.assign(model.chain.nodes.size(), -1);
     if (!model.calibrated) return fibres;
     const std::vector<double> lack = lack_of_organs(model, nodes.order);
+    const Embedding& chain = model.chain_embedding;
+    const auto chain_place = [&](int i) {
+        return tet_attachment(place_in_tet(nodes, model.cage.tets, chain.tet[size_t(i)], chain.weights[size_t(i)]));
+    };
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
         if (node.parent < 0 || node.organ < 0 || lack[size_t(node.organ)] < LEAST) continue;
         const double length = (node.position - model.chain.nodes[size_t(node.parent)].position).norm();
         if (!(length > 0)) continue;
         fibres.of_node[i] = int(fibres.list.size());
-        fibres.list.push_back(
-            {int(i), (1 + SLACK) * length, lack[size_t(node.organ)] * model.sections[i].stretching() / length});
+        fibres.node.push_back(int(i));
+        fibres.list.push_back({chain_place(node.parent), chain_place(int(i)), (1 + SLACK) * length,
+                               lack[size_t(node.organ)] * model.sections[i].stretching() / length});
     }
     if (fibres.list.empty()) return fibres;
-    for (const int capsule : nearest_capsules(model, nodes, modelled))
-        fibres.of_cage_node.push_back(capsule < 0 ? -1 : fibres.of_node[size_t(capsule)]);
+    for (const int capsule : nearest_capsules(model, nodes, modelled)) {
+        const int fibre = capsule < 0 ? -1 : fibres.of_node[size_t(capsule)], node = int(fibres.of_cage_node.size());
+        fibres.of_cage_node.push_back(fibre);
+        fibres.axis_of_cage_node.push_back(
+            fibre < 0 ? Attachment{} : on_axis(fibres.list[size_t(fibre)], modelled, point(modelled, node)));
+    }
     return fibres;
 }
 
-bool are_slack(Plant& plant) {
-    if (!plant.fibres) return true;
-    update_chain(plant);
-    return find_fibre_rows(plant).empty();
+static const Fibre* fibre_that_holds(const Plant& plant, int fibre) {
+    if (fibre < 0 || fragment_of_chain_node(plant, size_t(plant.fibres->node[size_t(fibre)]))) return nullptr;
+    return &plant.fibres->list[size_t(fibre)];
+}
+
+static const Fibre* fibre_of_node(const Plant& plant, int node) {
+    return plant.fibres ? fibre_that_holds(plant, plant.fibres->of_cage_node[size_t(node)]) : nullptr;
+}
+
+static const Fibre* fibre_of_vertex(const Plant& plant, int vertex) {
+    const int node = plant.fibres ? plant.model->chain.vertex_node[size_t(vertex)] : -1;
+    return node < 0 ? nullptr : fibre_that_holds(plant, plant.fibres->of_node[size_t(node)]);
+}
+
+Attachment pulled_at_node(const Plant& plant, int node) {
+    if (plant.follow) return plant.follow->attachments[size_t(node)];
+    if (fibre_of_node(plant, node)) return plant.fibres->axis_of_cage_node[size_t(node)];
+    Attachment itself;
+    itself.count = 1;
+    itself.node[0] = node;
+    itself.weight[0] = 1;
+    return itself;
+}
+
+Attachment pulled_at_vertex(const Plant& plant, int vertex) {
+    const Fibre* fibre = fibre_of_vertex(plant, vertex);
+    return fibre ? tied_to(*fibre, plant.nodes->modelled, plant.model->surface.positions[size_t(vertex)])
+                 : vertex_attachment(plant, vertex);
+}
+
+// Calls `use` for ties of what grabs and forces pull to both ends of its capsule, as the cage would let that turn
+// aside.
+template <class Use>
+static void for_each_tie(const Plant& plant, const Use& use) {
+    const VecX& modelled = plant.nodes->modelled;
+    const auto tie = [&](const Fibre& fibre, const Attachment& pulled) {
+        for (const Attachment* end : {&fibre.begin, &fibre.end}) {
+            const double length = (attachment_place(pulled, modelled) - attachment_place(*end, modelled)).norm();
+            if (length > 0) use(Fibre{*end, pulled, (1 + SLACK) * length, fibre.stiffness});
+        }
+    };
+    for (const Grab& grab : plant.input.grabs)
+        if (const Fibre* fibre = fibre_of_vertex(plant, grab.vertex)) tie(*fibre, pulled_at_vertex(plant, grab.vertex));
+}
+
+// Calls `use` for each fibre that has not broken off, with its length as it may have given, and for the ties.
+template <class Use>
+static void for_each_fibre(const Plant& plant, const Use& use) {
+    const Fibres& fibres = *plant.fibres;
+    for (size_t i = 0; i < fibres.list.size(); i++) {
+        if (fragment_of_chain_node(plant, size_t(fibres.node[i]))) continue;
+        if (plant.state.fibre_give.empty()) {
+            use(fibres.list[i]);
+        } else {
+            Fibre longer = fibres.list[i];
+            longer.length *= plant.state.fibre_give[i];
+            use(longer);
+        }
+    }
+    for_each_tie(plant, use);
+}
+
+std::unique_ptr<std::vector<Fibre>> fibres_of(const Plant& plant) {
+    if (!plant.fibres || !plant.step.has_fibres) return nullptr;
+    auto fibres = std::make_unique<std::vector<Fibre>>();
+    for_each_fibre(plant, [&](const Fibre& fibre) { fibres->push_back(fibre); });
+    return fibres;
+}
+
+void look_at_fibres(Plant& plant) {
+    plant.state.stretched = float(fibre_energy(plant, plant.state.motion.x));
+}
+
+void let_fibres_give(Plant& plant, double h) {
+    constexpr double RATE = 0.02;       // [1/s]
+    constexpr double NO_MATTER = 1e-6;  // energy of a fibre over that which lifts the plant by its size [-]
+    const bool gives = plant.state.is_entangled;
+    std::vector<double>& give = plant.state.fibre_give;
+    if (!plant.fibres || (!gives && give.empty())) return;
+    const std::vector<Fibre>& list = plant.fibres->list;
+    give.resize(list.size(), 1);
+    const double no_matter = NO_MATTER * lifting_energy(plant);
+    for (size_t i = 0; i < give.size(); i++) {
+        const double now = drawn(list[i], plant.state.motion.x);
+        if (gives || now < give[i]) {
+            give[i] = std::max(1.0, now);
+            continue;
+        }
+        Fibre shorter = list[i];
+        const double less = std::max(1.0, give[i] - RATE * h);
+        shorter.length *= less;
+        if (fibre_energy(shorter, plant.state.motion.x) <= no_matter) give[i] = less;
+    }
+    if (std::all_of(give.begin(), give.end(), [](double own) { return own == 1; })) give.clear();
+}
+
+double fibre_energy(const Plant& plant, const VecX& x) {
+    double energy = 0;
+    if (plant.fibres && plant.step.has_fibres)
+        for_each_fibre(plant, [&](const Fibre& fibre) { energy += fibre_energy(fibre, x); });
+    return energy;
+}
+
+double newly_stretched(const Plant& plant, const VecX& before, const VecX& x) {
+    double energy = 0;
+    if (plant.fibres && plant.step.has_fibres)
+        for_each_fibre(plant, [&](const Fibre& fibre) {
+            if (drawn(fibre, before) <= 1) energy += fibre_energy(fibre, x);
+        });
+    return energy;
+}
+
+void add_fibre_forces(const Plant& plant, const VecX& x, VecX& f) {
+    if (plant.fibres && plant.step.has_fibres)
+        for_each_fibre(plant, [&](const Fibre& fibre) { add_fibre_force(fibre, x, f); });
 }
 
 }  // namespace frond

@@ -38,12 +38,10 @@ void take_back(Plant& plant, const FreeStep& step) {
 
 bool may_go_part_of_way(const Plant& plant, double share, double h) {
     constexpr double LIFT = 0.5;  // speed of lifting the plant by its weight, for the work that is no matter [m/s]
-    const auto energy = [&](const VecX& x) {
-        return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
-    };
-    const double most = std::max(energy(plant.step.x_good), energy(plant.state.motion.x)) +
-                        node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
-    return energy(plant.step.x_good + share * way_of_step(plant)) <= most;
+    const double most =
+        std::max(elastic_energy(plant, plant.step.x_good), elastic_energy(plant, plant.state.motion.x)) +
+        node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
+    return elastic_energy(plant, plant.step.x_good + share * way_of_step(plant)) <= most;
 }
 
 void go_part_of_way(Plant& plant, double share) {

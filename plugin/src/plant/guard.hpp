@@ -40,6 +40,11 @@ bool may_inflate(const Plant& plant);
 // asked for its energy, unless pins or contacts push it, it starts anew, as with forces of the host, the step has
 // stages, of which one need not damp what another strained, or it may inflate the plant.
 bool keeps_course(Plant& plant, double h);
+// Returns whether fibres pulled in a solve over h [s], or are stretched by it, and gave the plant energy: one became
+// taut or turned far.
+bool snaps(Plant& plant, double h);
+// Returns whether a fibre is taut after a solve that was slack before it.
+bool fibre_becomes_taut(const Plant& plant);
 // Returns whether no node ran away, and none left its course with energy that nothing can have given. A pressed plant
 // springs far in a solve without contacts, and its energy is meaningless there.
 bool is_plausible(Plant& plant, double h);

@@ -12,10 +12,6 @@
 
 namespace frond {
 
-static double elastic_energy(const Plant& plant, const VecX& x) {
-    return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
-}
-
 double work_of_weight(const Plant& plant, const VecX& way) {
     const VecX& mass = node_mass_of(*plant.system);
     Vec3 moved = Vec3::Zero();
@@ -36,18 +32,22 @@ double lifting_energy(const Plant& plant) {
     return node_mass_of(*plant.system).sum() * GRAVITY * double(plant.size);
 }
 
-// Returns whether the plant has more energy than it had and than the loads and contacts can have given.
-static bool has_energy_from_nowhere(Plant& plant, double h) {
-    // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-]. The air's
-    // work on a chain that turns is known as well as its order alone.
-    constexpr double SHARE = 0.01, LIFT = 0.01;
+// Allowed errors of energy, as shares of that at the start and of that which lifts the plant by its size [-].
+struct AllowedEnergy {
+    double share, lift;
+};
+constexpr AllowedEnergy OF_ONE_SOLVE = {0.01, 0.01}, CONVERGED = {0, 1e-5};
+
+// Returns whether the plant has more energy than it had and than the loads and contacts can have given. The air's work
+// on a chain that turns is known as well as its order alone.
+static bool has_energy_from_nowhere(Plant& plant, const AllowedEnergy& allowed, double h) {
     const LoadWork work = work_of_loads(plant, h);
     const VecX way = way_of_step(plant);
     const double by_contacts = is_pushed(plant) ? std::min(plant.step.push->most_work, work.contacts) : 0;
     const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good;
     const double given = by_contacts + work.forces + work.grabs + work.air + work.pins + work.error +
                          (plant.follow ? std::abs(work.air) : 0) + work_of_weight(plant, way) +
-                         LIFT * lifting_energy(plant);
+                         allowed.lift * lifting_energy(plant);
     const double elastic = elastic_energy(plant, x);
     if (plant.step.push) {
         plant.step.push->x = x;
@@ -57,7 +57,7 @@ static bool has_energy_from_nowhere(Plant& plant, double h) {
     // The energy before the step is seldom needed.
     if (after <= given) return false;
     const double before = kinetic_energy(*plant.system, x_good, plant.step.v_good) + elastic_energy(plant, x_good);
-    return !(after <= given + (1 + SHARE) * before);
+    return !(after <= given + (1 + allowed.share) * before);
 }
 
 // Returns whether a spring that holds a pinned node was led anywhere in the step.
@@ -84,11 +84,31 @@ bool may_inflate(const Plant& plant) {
 
 bool keeps_course(Plant& plant, double h) {
     plant.step.is_off_course = ends_off_course(plant, h);
-    const bool is_asked = plant.step.is_off_course || plant.step.starts_anew || is_pushed(plant) ||
+    const bool recovers = plant.state.recovers_for > 0;
+    const bool is_asked = plant.step.is_off_course || plant.step.starts_anew || is_pushed(plant) || recovers ||
                           may_inflate(plant) || hold_several_places(plant) ||
                           integrator(plant.step.settings.integrator).has_stages ||
                           is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good) || leads_springs(plant);
-    return !(is_asked && has_energy_from_nowhere(plant, h)) && !has_run_away(plant);
+    // Thousands of times the energy of a vibration leave no share of it to errors.
+    const AllowedEnergy& allowed = recovers ? CONVERGED : OF_ONE_SOLVE;
+    return !(is_asked && has_energy_from_nowhere(plant, allowed, h)) && !has_run_away(plant);
+}
+
+static double no_matter_of_fibres(const Plant& plant) {
+    return CONVERGED.lift * lifting_energy(plant);
+}
+
+bool snaps(Plant& plant, double h) {
+    const double none = no_matter_of_fibres(plant);
+    const bool may_snap = double(plant.state.stretched) > none ||
+                          (plant.step.loads.fibres && fibre_energy(plant, plant.step.x_good) > none);
+    return may_snap && has_energy_from_nowhere(plant, CONVERGED, h);
+}
+
+bool fibre_becomes_taut(const Plant& plant) {
+    const double none = no_matter_of_fibres(plant);
+    return double(plant.state.stretched) > none &&
+           newly_stretched(plant, plant.step.x_good, plant.state.motion.x) > none;
 }
 
 bool is_plausible(Plant& plant, double h) {

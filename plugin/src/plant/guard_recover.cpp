@@ -59,12 +59,13 @@ void watch_recovery(Plant& plant, double h) {
     if (plant.state.recovers_for > 0) {
         plant.trouble |= FROND_TROUBLE_RETRIED;
         plant.state.recovers_for = std::max(0.0f, plant.state.recovers_for - float(h));
-        ends = plant.state.recovers_for == 0 && !plant.step.is_pressed;
+        const double way_left = double(plant.state.recovers_for) * plant.state.motion.v.lpNorm<Eigen::Infinity>();
+        ends = way_left <= OFF_COURSE * double(plant.size) && !plant.step.is_pressed;
     } else if ((plant.step.is_off_course || is_lost(plant)) && holds_more_than(plant, plant.step.x_good, TORN)) {
         plant.state.recovers_for = SWAYS * sway;
     }
-    // A plant that is still heavily strained or finds no solution by now, or rests with tets inside out, would stay so
-    // for ever.
+    // A plant that is still heavily strained or finds no solution, and will not get far any more, or rests with tets
+    // inside out, would stay so for ever.
     const bool is_folded =
         ends && (is_lost(plant) || is_inside_out(plant) || holds_more_than(plant, plant.state.motion.x, FOLDED));
     if (!(is_folded || is_caught_inside_out(plant, h)) || !start_from_modelled(plant)) return;

@@ -26,6 +26,7 @@ Vec3 displacement(const Attachment& attachment, const Plant& plant) {
 VecX elastic_force(const Plant& plant, const VecX& x) {
     VecX force = VecX::Zero(x.size());
     mechanics(plant.which, plant.nodes->order).add_force(elements_of(plant), x, force);
+    add_fibre_forces(plant, x, force);
     return force;
 }
 
@@ -73,7 +74,6 @@ VecX forces_at_end(const Plant& plant, const VecX& elastic, double h) {
     const VecX& mass = node_mass_of(*plant.system);
     VecX force = elastic;
     if (plant.step.loads.force.size() > 0) force += plant.step.loads.force;
-    if (plant.state.fibre_force.size() > 0) force += plant.state.fibre_force;
     if (is_pushed(plant)) force += plant.step.push->share / h * plant.step.push->impulse;
     add_spring_force(grab_springs(plant), motion.x, force);
     add_drag_force(plant.step.loads.drags, motion.x, motion.v, force);
@@ -186,12 +186,6 @@ LoadWork work_of_loads(const Plant& plant, double h) {
     add_air(plant, work);
     add_grabs(plant, work);
     if (is_pushed(plant)) work.contacts = plant.step.push->share / h * plant.step.push->impulse.dot(way);
-    // What fibres pull back once pins have strained the plant gives these nothing back.
-    if (plant.step.unpulled && !is_pushed(plant)) {
-        work.pins = plant.step.unpulled->pins;
-        work.error += plant.step.unpulled->error;
-        return work;
-    }
     const std::vector<uint8_t> held = held_nodes(plant);
     if (any_moves(held, way)) add_pins(plant, h, held, way, work);
     return work;

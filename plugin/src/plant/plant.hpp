@@ -115,7 +115,7 @@ struct SavedState {
     BlendOut blend_out;  // offset of the cage from where the mechanics have it
     // Lengths at which fibres pull, over their own, after an entanglement; else empty [-].
     std::vector<double> fibre_give;
-    VecX fibre_force;           // of taut fibres on the nodes in the last step, model frame [N]; empty: all are slack
+    float stretched = 0;        // energy in fibres after the last step; above zero the next one includes them [J]
     int substeps = 1;           // of the next step
     float recovers_for = 0;     // time left to recover from a state that no admissible load can reach [s]
     bool is_touched = false;    // in contact, which is resolved over whole steps
@@ -150,21 +150,20 @@ struct ContactPush {
 
 // Scratch of the running step: nothing of it outlives the step but memory.
 struct PlantStep {
-    WorkspacePtr workspace;              // from the pool; refers to system and own elements
-    SolveSettings settings;              // the plant's without effects that are off
-    Loads loads;                         // kept to reuse their memory
-    VecX x_good, v_good;                 // before the step; empty after a healthy batched one: in the history
-    std::unique_ptr<ContactPush> push;   // null until contacts are known
-    std::unique_ptr<LoadWork> work;      // of an accepted step; null: nobody keeps account
-    std::unique_ptr<LoadWork> unpulled;  // of the solve, before taut fibres pulled; null: none did
-    bool is_watched = false;             // near something that it may go through
-    bool is_pressed = false;             // in contact with something that may move
-    bool is_sound = true;                // the solution can be the next state
-    bool is_off_course = false;          // something ended the step off course
-    bool may_yield = true;               // it may cause yielding, as far as is known
-    bool has_fibres = false;             // it pulls back fibres
-    bool starts_anew = false;            // it has no past, since the host changed something
-    bool looks_back = false;             // it continues from its history, if it can be batched
+    WorkspacePtr workspace;             // from the pool; refers to system and own elements
+    SolveSettings settings;             // the plant's without effects that are off
+    Loads loads;                        // kept to reuse their memory
+    VecX x_good, v_good;                // before the step; empty after a healthy batched one: in the history
+    std::unique_ptr<ContactPush> push;  // null until contacts are known
+    std::unique_ptr<LoadWork> work;     // of an accepted step; null: nobody keeps account
+    bool is_watched = false;            // near something that it may go through
+    bool is_pressed = false;            // in contact with something that may move
+    bool is_sound = true;               // the solution can be the next state
+    bool is_off_course = false;         // something ended the step off course
+    bool may_yield = true;              // it may cause yielding, as far as is known
+    bool has_fibres = true;             // fibres may pull
+    bool starts_anew = false;           // it has no past, since the host changed something
+    bool looks_back = false;            // it continues from its history, if it can be batched
 };
 
 // View: what follows the state for those who look at the plant.
@@ -226,8 +225,8 @@ frond_plant_def def_of(const Plant& plant);
 // A step in two halves, between which contacts may change the solution: effects and solve; then accept, with plastic
 // strain, or rewind, and the chain.
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
-// Ends the first half: pulls back stretched fibres, and decides whether the solution can be the next state.
-void finish_solving(Plant& plant, double h);
+// Ends the first half: decides whether the solution can be the next state.
+void finish_solving(Plant& plant);
 // Does the middle of the first half: advances plant.motion by h under plant.loads.
 SolveReport solve_in_substeps(Plant& plant, double h);
 // Return gravity in the model's frame [m/s^2] and the settings of the running step.
@@ -289,6 +288,8 @@ void clear_user_force(Plant& plant);
 // of the last substep [s], or extrapolated if it is negative.
 void update_surface(Plant& plant, frond_effects effects, double back = 0);
 frond_energy energy_of(const Plant& plant, const Vec3& gravity);
+// Returns the elastic energy that the plant has with its nodes there, of the mechanics and of fibres [J].
+double elastic_energy(const Plant& plant, const VecX& x);
 // Returns the surface vertex nearest to a point of the world.
 int nearest_vertex(const Plant& plant, const Vec3& point);
 Vec3 vertex_position(const Plant& plant, int vertex);  // world frame [m]

@@ -25,6 +25,7 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
     loads.springs = plant.input.pin_springs;
     loads.guides = &guides_of(plant);
     loads.force.resize(0);
+    loads.fibres = nullptr;
     if (!(effects & FROND_EFFECT_USER_FORCE)) return;
 
     if (plant.input.has_user_force) {
@@ -34,10 +35,8 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
         const VecX& given = plant.input.forces->on_nodes;
         for (int i = 0; i < given.size() / 3; i++) {
             const Vec3 force = turn * point(given, i);
-            if (!plant.follow)
-                point(loads.force, i) = force;
-            else if (force != Vec3::Zero())
-                add_attachment_force(plant.follow->attachments[size_t(i)], plant.state.motion.x, force, loads.force);
+            if (force.isZero(0)) continue;
+            add_attachment_force(pulled_at_node(plant, i), plant.state.motion.x, force, loads.force);
         }
     }
     for (const Grab& grab : plant.input.grabs)
@@ -91,11 +90,33 @@ static void minimise(Plant& plant, frond_integrator method, double h, bool from_
         if (force.size() > 0) plant.step.loads.force += force;
     }
     const SolveReport before = plant.report;
+    plant.step.loads.fibres = fibres_of(plant);
     plant.report = solve_step(*plant.step.workspace, settings, plant.step.loads, h, motion);
     plant.report.add_cost(before);
     plant.step.loads.force = force;
     // A step of its own integrator ends as that would, so the next one needs no damping.
     motion.history.shaken = method != plant.step.settings.integrator;
+}
+
+// Solves again with fibres, to convergence. A fibre that becomes taut is an impact: an integrator that looks back, or
+// ahead within the step, would let it spring back faster than it came, so that step and the next are of implicit Euler.
+static void converge_with_fibres(Plant& plant, bool is_impact, double h) {
+    constexpr int ITERATIONS = 10, MOST_WORK = 200;  // Newton iterations, evaluations of all forces
+    const Timer timer;
+    SolveSettings settings = plant.step.settings;
+    settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
+    settings.careful = true;
+    settings.most_work = MOST_WORK;
+    if (is_impact) settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
+    const SolveReport before = plant.report;
+    plant.state.motion.x = plant.step.x_good;
+    plant.state.motion.v = plant.step.v_good;
+    plant.step.loads.fibres = fibres_of(plant);
+    plant.report = solve_step(*plant.step.workspace, settings, plant.step.loads, h, plant.state.motion);
+    if (is_impact) plant.state.motion.history.shaken = true;
+    plant.report.add_cost(before);
+    look_at_fibres(plant);
+    plant.ms_fibres = timer.ms();
 }
 
 // Goes only as far along the step as the plant gains no energy that nothing can have given.
@@ -122,7 +143,7 @@ static void solve_again(Plant& plant, double h) {
     const VecX x_once = plant.state.motion.x, v_once = plant.state.motion.v;
     if (!plant.state.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
         minimise(plant, own, h, from_rest);
-        if (plant.report.ok && is_plausible(plant, h) && are_slack(plant)) return;
+        if (plant.report.ok && is_plausible(plant, h)) return;
     }
     plant.state.motion.history.valid = false;
     minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, from_rest);
@@ -171,8 +192,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.view.lead = 0;
     plant.step.may_yield = true;
     plant.step.push = nullptr;
-    plant.step.unpulled = nullptr;
-    plant.state.fibre_force.resize(0);
+    plant.step.has_fibres = effects & FROND_EFFECT_FIBRES;
 
     // Effects.
     take_workspace(plant);
@@ -187,7 +207,6 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.step.settings = settings_for(plant, effects);
     plant.ms_effects = plant.ms_user_force + plant.ms_air;
     plant.ms_fibres = plant.ms_plasticity = 0;
-    plant.step.has_fibres = effects & FROND_EFFECT_FIBRES;
 
     // Solve.
     drop_history_at_forces(plant);
@@ -195,16 +214,19 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.step.starts_anew =
         integrator(plant.input.settings.integrator).looks_back && !motion.history.valid && !motion.history.shaken;
     plant.report = solve_in_substeps(plant, h);
-    if (!plant.report.ok || !is_plausible(plant, h)) solve_again(plant, h);
-    finish_solving(plant, h);
+    const bool is_impact = plant.report.ok && fibre_becomes_taut(plant);
+    bool gains = is_impact || (plant.report.ok && snaps(plant, h));
+    if (gains) {
+        converge_with_fibres(plant, is_impact, h);
+        gains = plant.report.ok && snaps(plant, h);
+    }
+    if (!plant.report.ok || gains || !is_plausible(plant, h)) solve_again(plant, h);
+    finish_solving(plant);
 }
 
-void finish_solving(Plant& plant, double h) {
-    hold_lengths(plant, h);
-    // Chains have no fibres, so none of their nodes has moved since the plausibility check. A plant on its course is
-    // not being stretched.
-    plant.step.is_sound =
-        (plant.follow ? plant.report.ok : is_sound(plant)) && !(plant.step.is_off_course && is_far_out(plant));
+void finish_solving(Plant& plant) {
+    // No node has moved since the plausibility check. A plant on its course is not being stretched.
+    plant.step.is_sound = plant.report.ok && !(plant.step.is_off_course && is_far_out(plant));
 }
 
 double parting_work(double mass, double h) {
@@ -220,15 +242,13 @@ double parting_work(const Plant& plant, double h) {
 // little is applied, or thick stems would never part.
 static VecX move_by(Plant& plant, const VecX& dv, double h) {
     constexpr double LEAST = 0.002;  // share [-]
-    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
-    const Elements& elements = elements_of(plant);
     const VecX x = plant.state.motion.x;
     const ContactPush* push = plant.step.push.get();
     const bool is_known = push && push->x.size() == x.size() && push->x == x;
-    const double allowed = (is_known ? push->elastic : row.energy(elements, x)) + parting_work(plant, h);
+    const double allowed = (is_known ? push->elastic : elastic_energy(plant, x)) + parting_work(plant, h);
     for (double share = 1; share > LEAST; share /= 2) {
         add_correction(*plant.step.workspace, share * dv, plant.state.motion);
-        if (is_calm_way(plant) && row.energy(elements, plant.state.motion.x) <= allowed)
+        if (is_calm_way(plant) && elastic_energy(plant, plant.state.motion.x) <= allowed)
             return plant.state.motion.x - x;
         plant.state.motion.x = x;
     }
@@ -268,6 +288,7 @@ void add_contacts(Plant& plant, double h) {
     const bool is_bent =
         has_impulse && !plant.follow && !is_calm(*plant.system, plant.step.x_good, plant.state.motion.x);
     // Where this is too far for the linear response, the same push is solved as a force, nonlinearly.
+    if (has_impulse) look_at_fibres(plant);
     if (is_bent || !is_plausible(plant, h)) solve_again_aside(plant, h);
     plant.step.is_sound = is_sound(plant) && !is_far_out(plant);
 }
@@ -311,6 +332,8 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     FROND_ASSERT(motion.x.size() == 3 * elements_of(plant).node_count);
     drop_history_at_forces(plant);
     plant.state.stepped_by = h;
+    let_fibres_give(plant, h);
+    if (is_pushed(plant) || plant.trouble & (FROND_TROUBLE_RETRIED | FROND_TROUBLE_REWOUND)) look_at_fibres(plant);
     carry_stumps(plant);
     pass_time(plant.state.blend_out, h);
     moved(plant);

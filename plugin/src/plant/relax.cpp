@@ -18,7 +18,7 @@ StoredEnergy stored_energy(const Plant& plant) {
     const Elements& new_ones = elements_of(*plant.system);  // plastic strain leaves the modelled shape strained
     const VecX& x = plant.state.motion.x;
     const double lifted = -work_of_weight(plant, x - new_ones.modelled);
-    return {row.energy(elements_of(plant), x) - row.energy(new_ones, new_ones.modelled) + lifted,
+    return {elastic_energy(plant, x) - row.energy(new_ones, new_ones.modelled) + lifted,
             kinetic_energy(*plant.system, plant.state.motion.x, plant.state.motion.v)};
 }
 
@@ -52,6 +52,7 @@ static bool take_steps(Plant& plant, SolveSettings& settings, double bound) {
     Loads loads;
     loads.gravity = plant.step.loads.gravity;
     loads.guides = &guides_of(plant);
+    loads.fibres = fibres_of(plant);
     if (loads.gravity.isZero(0) && plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
     double stored = stored_energy(plant).potential;
     if (stored <= bound) return false;
@@ -60,13 +61,6 @@ static bool take_steps(Plant& plant, SolveSettings& settings, double bound) {
         const VecX before = motion.x;
         motion.v.setZero();
         plant.report = solve_step(*plant.step.workspace, settings, loads, h, motion);
-        const VecX free = motion.x;
-        hold_lengths(plant, h, false);
-        // Between pins that are too far apart fibres would crumple the cage.
-        if (!(stored_energy(plant).potential < stored)) {
-            motion.x = free;
-            plant.state.fibre_force.resize(0);
-        }
         const double next = stored_energy(plant).potential;
         if (plant.report.ok && next < stored) {
             if (!(next - bound < SLOW * (stored - bound))) h *= 2;
@@ -74,7 +68,6 @@ static bool take_steps(Plant& plant, SolveSettings& settings, double bound) {
             continue;
         }
         motion.x = before;
-        plant.state.fibre_force.resize(0);
         if (settings.careful) break;
         // One solve overshoots: a search does not.
         settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);

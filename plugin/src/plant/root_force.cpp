@@ -57,7 +57,7 @@ static void add_damping_force(const Plant& plant, const SolveSettings& settings,
 static VecX forces_on_nodes(const Plant& plant, frond_effects effects, const VecX& v) {
     VecX pull = VecX::Zero(plant.state.motion.x.size());
     plant.system->row->add_force(elements_of(plant), plant.state.motion.x, pull);
-    if (plant.state.fibre_force.size() == pull.size()) pull += plant.state.fibre_force;
+    add_fibre_forces(plant, plant.state.motion.x, pull);
     if (v.size() == pull.size() && !v.isZero(0)) add_damping_force(plant, settings_for(plant, effects), v, pull);
     return pull;
 }

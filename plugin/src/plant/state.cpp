@@ -8,21 +8,25 @@ frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
     const VecX& mass = node_mass_of(*plant.system);
     frond_energy energy = {};
     energy.kinetic = kinetic_energy(*plant.system, plant.state.motion.x, plant.state.motion.v);
-    energy.elastic = mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), plant.state.motion.x);
+    energy.elastic = elastic_energy(plant, plant.state.motion.x);
     for (int i = 0; i < mass.size(); i++)
         energy.gravity -= mass[i] * gravity.dot(plant.to_world(point(plant.state.motion.x, i)));
     return energy;
 }
 
+double elastic_energy(const Plant& plant, const VecX& x) {
+    return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x) + fibre_energy(plant, x);
+}
+
 Spring grab_spring(const Plant& plant, const Grab& grab) {
     FROND_ASSERT(grab.vertex >= 0 && size_t(grab.vertex) < plant.model->surface.positions.size());
     FROND_ASSERT(grab.stiffness >= 0);
-    return {vertex_attachment(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness};
+    return {pulled_at_vertex(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness};
 }
 
 Vec3 grab_place(const Plant& plant, int vertex) {
     if (fragment_of_vertex(plant, size_t(vertex))) return vertex_position(plant, vertex);
-    return plant.to_world(attachment_place(vertex_attachment(plant, vertex), plant.state.motion.x));
+    return plant.to_world(attachment_place(pulled_at_vertex(plant, vertex), plant.state.motion.x));
 }
 
 Vec3 grab_force(const Plant& plant, const Grab& grab) {
@@ -44,7 +48,6 @@ static void go_on_anew(Plant& plant) {
     plant.state.motion.history.valid = plant.state.motion.history.shaken = false;
     plant.state.blend_out = {};
     plant.view.lead = plant.state.stepped_by = 0;
-    plant.state.fibre_force.resize(0);
     if (plant.follow) carry_supports(plant);
     plant.input.pins_changed = true;
     apply_pins(plant);

@@ -34,8 +34,16 @@ double local_error(Plant& plant, const VecX& x, const VecX& v, double h) {
     return 0.5 * std::sqrt(most);
 }
 
-// Solves all substeps, pinned nodes moving evenly; `error` is the sum of theirs. The caller pulls back the fibres of
-// the last one.
+// Solves with fibres where one was taut.
+SolveReport solve_with_fibres(Plant& plant, double h) {
+    if (plant.state.stretched > 0) plant.step.loads.fibres = fibres_of(plant);
+    const SolveReport report =
+        solve_step(*plant.step.workspace, plant.step.settings, plant.step.loads, h, plant.state.motion);
+    look_at_fibres(plant);
+    return report;
+}
+
+// Solves all substeps, pinned nodes moving evenly; `error` is the sum of theirs.
 SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
     Motion& motion = plant.state.motion;
     const VecX from = motion.x, target = motion.pin_target;
@@ -45,8 +53,7 @@ SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
     for (int i = 1; i <= count && sum.ok; i++) {
         motion.pin_target = i < count ? VecX(from + (target - from) * (double(i) / count)) : target;
         const VecX x = motion.x, v = motion.v;
-        plant.report = solve_step(*plant.step.workspace, plant.step.settings, plant.step.loads, h / count, motion);
-        if (i < count) hold_lengths(plant, h / count);
+        plant.report = solve_with_fibres(plant, h / count);
         const SolveReport& one = plant.report;
         error += local_error(plant, x, v, h / count);
         sum.ok = one.ok;
@@ -62,8 +69,7 @@ SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
 }  // namespace
 
 SolveReport solve_in_substeps(Plant& plant, double h) {
-    if (plant.input.max_substeps <= 1 || plant.state.is_touched)
-        return solve_step(*plant.step.workspace, plant.step.settings, plant.step.loads, h, plant.state.motion);
+    if (plant.input.max_substeps <= 1 || plant.state.is_touched) return solve_with_fibres(plant, h);
     constexpr double TOO_FINE = 1.0 / 8;  // half as many substeps make four times the error
     const double allowed = plant.input.substep_tolerance * plant.size;
     FROND_ASSERT(plant.state.substeps >= 1 && plant.input.substep_tolerance >= 0);

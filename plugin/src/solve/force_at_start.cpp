@@ -14,6 +14,7 @@ void force_at_start(Workspace& w, const StepInput& input, SolveReport& report) {
     const double b = w.damping_scale;
     w.force = w.external;
     add_spring_force(input.loads.springs, x, w.force);
+    for_each_fibre(input.loads, [&](const Fibre& fibre) { add_fibre_force(fibre, x, w.force); });
     add_drag_force(input.loads.drags, x, w.v_start, w.force);
 
     // D = a M + b K, or with each element's own b; K is the positive stiffness, as in a stage.

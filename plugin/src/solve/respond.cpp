@@ -32,10 +32,6 @@ bool go_on_changing(Workspace& workspace, const SolveSettings& settings, const V
     return respond(workspace, settings, workspace.momentum, change);
 }
 
-double reach_of(const Workspace& workspace) {
-    return workspace.reach;
-}
-
 void add_response(const Workspace& workspace, const VecX& dv, Motion& motion) {
     motion.v += dv;
     add_correction(workspace, dv, motion);

@@ -28,6 +28,14 @@ struct Spring {
     double stiffness;  // [N/m]
 };
 
+// A fibre between two points of the plant, without rotating arms. It only pulls: its energy is half its stiffness times
+// the square of what the points are farther apart than its length.
+struct Fibre {
+    Attachment begin, end;
+    double length;     // [m]
+    double stiffness;  // [N/m]
+};
+
 // Resistance to the motion of a point of the plant: force - damping times the point's velocity. Only for attachments
 // without rotating arms.
 struct Drag {
@@ -90,6 +98,7 @@ struct Loads {
     Vec3 gravity = Vec3::Zero();  // [m/s^2]; applied through the mass matrix
     std::vector<Spring> springs;
     bool springs_are_far = false;  // some pull from farther than their derivative holds for: see lead_pin_springs()
+    std::unique_ptr<std::vector<Fibre>> fibres;  // of the plant itself; null: none is taut
     std::vector<Drag> drags;
     const std::vector<Guide>* guides = nullptr;  // borrowed; null: no node is held in part
 };
@@ -144,8 +153,6 @@ bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& im
 // impulses: change = A^-1 M before, in which elastic forces resist that change alone, not the velocity there was.
 // Returns false if there is no solution.
 bool go_on_changing(Workspace& workspace, const SolveSettings& settings, const VecX& before, VecX& change);
-// Returns the derivative of positions by velocities at the end of the last step [s].
-double reach_of(const Workspace& workspace);
 // Adds such velocities, and the displacements by them within the step, to the motion that the step left.
 void add_response(const Workspace& workspace, const VecX& dv, Motion& motion);
 // Does what a step with SolveSettings::is_touched left out, to its solution with all responses.

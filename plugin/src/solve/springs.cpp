@@ -1,6 +1,8 @@
-// In: springs and positions of the nodes. Out: their energy 1/2 k |p - target|^2, its force and stiffness.
+// In: springs and positions of the nodes. Out: their energy 1/2 k |p - target|^2, its force and stiffness; likewise of
+// fibres, 1/2 k max(0, |p - q| - length)^2.
 #include "solve/springs.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace frond {
@@ -34,6 +36,56 @@ void add_spring_stiffness(const std::vector<Spring>& springs, const VecX& x, Tan
         const Vec3 force = spring.stiffness * (spring.target - attachment_place(spring.attachment, x));
         add_attachment_turning(spring.attachment, x, force, scale, A);
     }
+}
+
+static Vec3 way_along(const Fibre& fibre, const VecX& x) {
+    return attachment_place(fibre.end, x) - attachment_place(fibre.begin, x);
+}
+
+double drawn(const Fibre& fibre, const VecX& x) {
+    return way_along(fibre, x).norm() / fibre.length;
+}
+
+double fibre_energy(const Fibre& fibre, const VecX& x) {
+    const double over = way_along(fibre, x).norm() - fibre.length;
+    return over > 0 ? 0.5 * fibre.stiffness * over * over : 0;
+}
+
+void add_fibre_force(const Fibre& fibre, const VecX& x, VecX& f) {
+    const Vec3 way = way_along(fibre, x);
+    const double length = way.norm(), over = length - fibre.length;
+    if (!(over > 0)) return;
+    const Vec3 pull = fibre.stiffness * over / length * way;
+    add_attachment_force(fibre.begin, x, pull, f);
+    add_attachment_force(fibre.end, x, -pull, f);
+}
+
+void add_fibre_stiffness(const Fibre& fibre, const VecX& x, double scale, BlockMatrix& A) {
+    const Vec3 way = way_along(fibre, x);
+    const double length = way.norm(), over = length - fibre.length;
+    if (!(over > 0)) return;
+    const Vec3 along = way / length;
+    const Mat3 onto = along * along.transpose();
+    const Mat3 stiffness = scale * fibre.stiffness * (onto + over / length * (Mat3::Identity() - onto));
+    // Both ends' nodes, each once.
+    constexpr size_t MOST = 2 * size_t(Attachment::MOST);
+    std::array<int, MOST> node;
+    std::array<double, MOST> weight;
+    size_t count = 0;
+    const auto add = [&](const Attachment& end, double sign) {
+        for (size_t k = 0; k < size_t(end.count); k++) {
+            const size_t at = size_t(std::find(node.begin(), node.begin() + long(count), end.node[k]) - node.begin());
+            if (at == count) {
+                node[count] = end.node[k];
+                weight[count++] = 0;
+            }
+            weight[at] += sign * end.weight[k];
+        }
+    };
+    add(fibre.begin, -1);
+    add(fibre.end, 1);
+    for (size_t a = 0; a < count; a++)
+        for (size_t b = 0; b <= a; b++) A.block(A.pattern->slot(node[a], node[b])) += weight[a] * weight[b] * stiffness;
 }
 
 }  // namespace frond

@@ -1,4 +1,4 @@
-// Springs between points of a plant and fixed targets: energy, force, stiffness.
+// Springs between points of a plant and fixed targets, and fibres between two of its points: energy, force, stiffness.
 #pragma once
 
 #include "solve/system.hpp"
@@ -10,5 +10,18 @@ double spring_energy(const std::vector<Spring>& springs, const VecX& x);
 void add_spring_force(const std::vector<Spring>& springs, const VecX& x, VecX& f);
 void add_spring_stiffness(const std::vector<Spring>& springs, const VecX& x, Tangent tangent, double scale,
                           BlockMatrix& A);
+
+// Returns the distance of a fibre's ends over its length [-].
+double drawn(const Fibre& fibre, const VecX& x);
+double fibre_energy(const Fibre& fibre, const VecX& x);
+void add_fibre_force(const Fibre& fibre, const VecX& x, VecX& f);
+// Adds the exact stiffness, which is positive as a fibre only pulls.
+void add_fibre_stiffness(const Fibre& fibre, const VecX& x, double scale, BlockMatrix& A);
+// Calls `use` for each fibre of a solve.
+template <class Use>
+void for_each_fibre(const Loads& loads, const Use& use) {
+    if (!loads.fibres) return;
+    for (const Fibre& fibre : *loads.fibres) use(fibre);
+}
 
 }  // namespace frond

@@ -18,6 +18,7 @@ static void start_residual(const StageEquations& e, const VecX& v, VecX& rhs) {
     const double step = e.stage.step;
     rhs = e.w.external + e.w.elastic;
     add_spring_force(e.input.loads.springs, e.w.x, rhs);
+    for_each_fibre(e.input.loads, [&](const Fibre& fibre) { add_fibre_force(fibre, e.w.x, rhs); });
     add_drag_force(e.input.loads.drags, e.w.x, v, rhs);
     rhs *= step;
     if (e.stage.impulse) rhs += *e.stage.impulse;
@@ -106,6 +107,7 @@ double potential_at(const StageEquations& e, const VecX& v) {
     set_positions(e, v);
     double potential =
         e.body.energy(*w.elements, w.x) + spring_energy(e.input.loads.springs, w.x) - step * w.external.dot(v);
+    for_each_fibre(e.input.loads, [&](const Fibre& fibre) { potential += fibre_energy(fibre, w.x); });
     w.dv = v - e.stage.v_base;
     multiply_mass(e.system, w.inertia, w.dv, w.momentum);
     potential += 0.5 * w.dv.dot(w.momentum);
@@ -146,6 +148,7 @@ void form_matrix(StageEquations& e, bool first, Tangent tangent) {
     add_mass(e.system.masses, mass, A);
     add_inertia(e.w, mass);
     add_spring_stiffness(e.input.loads.springs, e.w.x, tangent, step * step, A);
+    for_each_fibre(e.input.loads, [&](const Fibre& fibre) { add_fibre_stiffness(fibre, e.w.x, step * step, A); });
     add_drag_damping(e.input.loads.drags, e.w.x, step, A);
 }
 

@@ -19,7 +19,7 @@ void add_to_report(World& world, PlantBody& body) {
     const Plant& plant = *body.plant;
     if (plant.trouble != 0) note_trouble(world, body, plant.trouble);
     if (plant.state.modal) return;
-    if (plant.state.fibre_force.size() > 0) note_of_plant(world, body, FROND_TROUBLE_PULLED_BACK);
+    if (plant.state.stretched > 0) note_of_plant(world, body, FROND_TROUBLE_TAUT);
     report.solver_iterations += plant.report.iterations;
     report.residual = std::max(report.residual, plant.report.residual);
     world.profile.ms_effects += plant.ms_effects;

@@ -102,7 +102,7 @@ static void visit(Archive& a, SavedPlant& plant) {
     a(state.trend.v_end), a(state.trend.rate);
     visit_blend_out(a, state.blend_out);
     a(plant.lead), a(plant.modal), a(plant.has_own_elements), a(plant.plastic), a(state.fibre_give);
-    a(state.fibre_force);
+    a(state.stretched);
     a(input.pinned), a(input.pin_target), a(input.anchor), a(plant.supports);
     a(input.pins_changed), a(input.pins_are_own), a(input.has_user_force), a(state.is_touched), a(state.is_entangled);
     a(plant.forces.on_nodes), a(plant.forces.on_chain), a(state.substeps), a(state.recovers_for), a(plant.grab_targets),

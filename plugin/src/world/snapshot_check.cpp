@@ -221,7 +221,6 @@ void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_c
     check_pins(saved, plant);
     check_blend_out(saved.state.blend_out, 3 * Eigen::Index(node_count_of(plant)));
     check_numbers(saved.state.fibre_give, "fibres");
-    check_size(saved.state.fibre_force, become.numbers, "fibres", true);
     if (saved.modal.size() > 1 || (!saved.modal.empty() && !mechanics(saved.which, plant.nodes->order).moves_chain))
         damaged("sway");
     for (const ModalState& modal : saved.modal) {
