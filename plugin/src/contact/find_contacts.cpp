@@ -33,7 +33,7 @@ bool may_collide(const PlantBody& body, const btCollisionObject& object) {
 }
 
 bool slides(const btCollisionObject& object) {
-    return is_free(object);
+    return btRigidBody::upcast(&object) != nullptr;
 }
 
 namespace {
@@ -61,9 +61,10 @@ bool is_outside(const Vec3& way, const Vec3& towards) {
 
 // Makes the contact of a body's point with a capsule; an infinite gap means none.
 Contact contact_at(PlantBody& body, int capsule, btCollisionObject& other, const Vec3& on_other, const Vec3& towards) {
-    if (slides(other) && is_outside(nearest_on_core(body, capsule, on_other).point - on_other, towards)) {
+    if (slides(other)) {
         const int under = piece_under(body, capsule, on_other);
-        if (!is_apart(body, under, other)) capsule = under;
+        const bool is_beside = is_outside(nearest_on_core(body, under, on_other).point - on_other, towards);
+        if (is_beside && !is_apart(body, under, other)) capsule = under;
     }
     const OnCore core = nearest_on_core(body, capsule, on_other);
     const double radius = radius_of(body, capsule);
@@ -99,7 +100,7 @@ void add_contact(PlantBody& body, int capsule, btCollisionObject& other, const V
 bool has_changed_sides(const PlantBody& body, int child, const btCollisionObject& other, const Vec3& towards,
                        double h) {
     constexpr double FAR = 0.005;  // motion from which on they are swept anyhow [m]
-    if (child < 0 || !other.getCollisionShape()->isConvex() || !slides(other)) return false;
+    if (child < 0 || !other.getCollisionShape()->isConvex() || !is_free(other)) return false;
     if (!motion_of(other, h).is_far(FAR)) return false;
     const auto* compound = static_cast<const btCompoundShape*>(body.getCollisionShape());
     const Vec3 side = side_of(static_cast<const btConvexShape&>(*other.getCollisionShape()), other.getWorldTransform(),

@@ -33,8 +33,8 @@ bool pushes(const btCollisionObject& object);
 bool takes_part(const World& world, const PlantBody* body);
 // Returns whether neither side ignores the other, apart from their groups and PlantBody's own exclusions.
 bool may_collide(const PlantBody& body, const btCollisionObject& object);
-// Returns whether a body passes over the joints of a stem's segments, as a free rigid body does. Bodies that something
-// leads, kinematic ones and links, push whatever they meet, so that nothing slips through them.
+// Returns whether a body passes over the joints of a stem's segments, as rigid ones do. Links of a multi-body, which
+// many points press at once, push whatever they meet.
 bool slides(const btCollisionObject& object);
 // Adds the contacts of an infinite plane with the plants that Bullet's broad phase pairs with it; its narrow phase
 // skips these pairs.

@@ -79,6 +79,8 @@ bool add(const Contact& contact, std::vector<Contact>& contacts) {
     if (pushes_on) contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_against), contacts.end());
     if (std::any_of(contacts.begin(), contacts.end(), is_like)) return false;
     contacts.push_back(contact);
+    contacts.back().is_inside =
+        slides(*contact.other) && is_in_joint(*contact.plant, contact.capsule, contact.on_plant);
     return true;
 }
 
@@ -218,7 +220,6 @@ void sweep(Search& search, btCollisionObject& object, bool is_new) {
 bool add_hit(World& world, PlantBody& body, const SweptBody& swept, const Hit& hit, std::vector<Contact>& contacts) {
     constexpr double LIMIT = 0.5;  // displacement that no step can give a plant, over its size [-]
     Contact contact = contact_of(body, *swept.object, hit);
-    contact.is_inside = slides(*swept.object) && is_in_joint(body, hit.capsule, contact.on_plant);
     const bool is_led = swept.object->isKinematicObject();
     if (is_led && contact.normal.dot(swept.motion.way) > LIMIT * double(body.plant->size)) {
         note_trouble(world, body, FROND_TROUBLE_PASSED);

@@ -109,5 +109,24 @@ void set_state(Rigid& rigid, const frond_rigid_state& state) {
     body.activate(true);
 }
 
+Leader::Leader(const World& world) {
+    for (const std::unique_ptr<Rigid>& rigid : world.rigids) {
+        btRigidBody& body = *rigid->body;
+        // Bullet keeps there where the last step left it.
+        const btTransform &from = body.getInterpolationWorldTransform(), &to = body.getWorldTransform();
+        if (body.isKinematicObject() && !(from == to)) bodies.push_back({&body, from, to});
+    }
+}
+
+void Leader::lead(double share) const {
+    for (const Led& led : bodies) {
+        const btQuaternion begin = led.from.getRotation(), end = begin.nearest(led.to.getRotation());
+        const btScalar gone = btScalar(share), left = 1 - gone;
+        const btTransform between((begin * left + end * gone).safeNormalize(),
+                                  led.from.getOrigin() * left + led.to.getOrigin() * gone);
+        led.body->setWorldTransform(share < 1 ? between : led.to);
+    }
+}
+
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

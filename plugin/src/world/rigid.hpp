@@ -40,5 +40,25 @@ void host_deleted(Rigid& rigid, btRigidBody& body);
 frond_rigid_state state_of(const Rigid& rigid);
 void set_state(Rigid& rigid, const frond_rigid_state& state);
 
+// Leads the kinematic bodies that were put elsewhere there, in even parts over the substeps of a step: Bullet would
+// have them go all the way in the first one and stand still in the others. What a step broken off has left is gone at
+// the end.
+class Leader {
+public:
+    explicit Leader(const World& world);
+    ~Leader() { lead(1); }
+    Leader(const Leader&) = delete;
+    Leader& operator=(const Leader&) = delete;
+    // Puts each body at a share of its way.
+    void lead(double share) const;
+
+private:
+    struct Led {
+        btRigidBody* body;
+        btTransform from, to;
+    };
+    std::vector<Led> bodies;
+};
+
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

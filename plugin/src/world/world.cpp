@@ -13,6 +13,7 @@
 #include "world/fragments.hpp"
 #include "world/link_loads.hpp"
 #include "world/own_bullet.hpp"
+#include "world/rigid.hpp"
 #include "world/robot.hpp"
 
 namespace frond {
@@ -162,7 +163,11 @@ int number_of(World& world, PlantBody& body) {
 void advance(World& world, double dt) {
     const int substeps = int(std::ceil(dt / world.max_substep - 1e-9));
     if (substeps > 0) limit_motors(world, dt / substeps);
-    for (int i = 0; i < substeps; i++) world.bullet->stepSimulation(btScalar(dt / substeps), 0);
+    const Leader leader(world);
+    for (int i = 1; i <= substeps; i++) {
+        leader.lead(double(i) / substeps);
+        world.bullet->stepSimulation(btScalar(dt / substeps), 0);
+    }
     for (PlantBody* body : world.awake) clear_user_force(*body->plant);
 }
 
