@@ -85,8 +85,8 @@ bool may_inflate(const Plant& plant) {
 bool keeps_course(Plant& plant, double h) {
     plant.step.is_off_course = ends_off_course(plant, h);
     const bool recovers = plant.state.recovers_for > 0;
-    const bool is_asked = plant.step.is_off_course || plant.step.starts_anew || is_pushed(plant) || recovers ||
-                          may_inflate(plant) || hold_several_places(plant) ||
+    const bool is_asked = plant.step.is_off_course || plant.step.is_inexact || plant.step.starts_anew ||
+                          is_pushed(plant) || recovers || may_inflate(plant) || hold_several_places(plant) ||
                           integrator(plant.step.settings.integrator).has_stages ||
                           is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good) || leads_springs(plant);
     // Thousands of times the energy of a vibration leave no share of it to errors.

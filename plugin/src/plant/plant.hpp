@@ -160,6 +160,7 @@ struct PlantStep {
     bool is_pressed = false;            // in contact with something that may move
     bool is_sound = true;               // the solution can be the next state
     bool is_off_course = false;         // something ended the step off course
+    bool is_inexact = false;            // the most substeps did not keep its error as small as asked
     bool may_yield = true;              // it may cause yielding, as far as is known
     bool has_fibres = true;             // fibres may pull
     bool starts_anew = false;           // it has no past, since the host changed something

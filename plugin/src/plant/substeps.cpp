@@ -69,6 +69,7 @@ SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
 }  // namespace
 
 SolveReport solve_in_substeps(Plant& plant, double h) {
+    plant.step.is_inexact = false;
     if (plant.input.max_substeps <= 1 || plant.state.is_touched) return solve_with_fibres(plant, h);
     constexpr double TOO_FINE = 1.0 / 8;  // half as many substeps make four times the error
     const double allowed = plant.input.substep_tolerance * plant.size;
@@ -81,6 +82,7 @@ SolveReport solve_in_substeps(Plant& plant, double h) {
         SolveReport report = solve_evenly(plant, count, h, error);
         report.add_cost(spent);
         if ((report.ok && error <= allowed) || 2 * count > plant.input.max_substeps) {
+            plant.step.is_inexact = !(error <= allowed);
             plant.state.substeps = error < TOO_FINE * allowed ? std::max(1, count / 2) : count;
             return report;
         }
