@@ -1,5 +1,6 @@
 // In: rows whose impulses plants have taken, and the ways that these went. Out: impulses by which no movable body gains
-// more energy than its own took from the plants, and than parting from overlaps and closing bonds takes.
+// more energy than its own took from the plants, than closing bonds takes, and than lifting it takes as fast as it
+// parts from overlaps; a link, which has motors, as much as parting takes.
 //
 // Between linear responses impulses give no energy. But a plant whose step was solved again, or held back, went another
 // way than its linear response, and a chain of links turns a small wrong impulse into a fast spin.
@@ -34,7 +35,7 @@ double share_within(double first, double second, double most) {
 
 double share_of_body(const World& world, const std::vector<ContactRow>& rows, const std::vector<Vec3>& impulses,
                      const std::vector<size_t>& body, double h) {
-    double first = 0, second = 0, taken = 0;
+    double first = 0, second = 0, taken = 0, parted = 0;
     for (const size_t i : body) {
         const Vec3 on_body = -impulses[i];
         const ContactBody& at = rows[i].contact_body;
@@ -44,10 +45,13 @@ double share_of_body(const World& world, const std::vector<ContactRow>& rows, co
         const Plant& plant = *rows[i].plants[0]->plant;
         FROND_ASSERT(plant.step.push);
         const Touch& touch = rows[i].touch;
-        const Vec3 velocity = way_of_touch(plant, rows[i].touches[0]) / h,
-                   parting = touch.wanted + std::max(0.0, touch.bias_velocity) * touch.normal;
-        taken += plant.step.push->share * on_body.dot(velocity - parting);
+        const Vec3 velocity = way_of_touch(plant, rows[i].touches[0]) / h;
+        taken += plant.step.push->share * on_body.dot(velocity - touch.wanted);
+        parted -= plant.step.push->share * std::max(0.0, touch.bias_velocity) * on_body.dot(touch.normal);
     }
+    // A plant that is held back asks a heavy body in it for ever more.
+    const btRigidBody* rigid = rows[body[0]].contact_body.rigid;
+    taken += rigid ? std::min(parted, parting_work(1 / double(rigid->getInvMass()), h)) : parted;
     // What a link has already, as the impulses that Bullet foresaw were taken back, is its motors'.
     const btMultiBodyLinkCollider* link = rows[body[0]].contact_body.link;
     const LinkLoads* loads = link ? find_link_loads(world, *link->m_multiBody) : nullptr;
