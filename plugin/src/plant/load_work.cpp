@@ -114,10 +114,10 @@ Vec3 mean_way(const Plant& plant, const std::vector<uint8_t>& held, const VecX& 
     return sum / std::max(count, 1);
 }
 
-// Elastic forces count by the trapezoidal rule, their deviation from it halfway as error. Damping counts by the change
-// of elastic forces, which turning does not feign: velocities at the end of a step are off by what stiff parts would
-// damp with a multiple of all other forces. Where elements differ it counts by its mean; half of the largest counts as
-// error, since the step took it from a stiffness that is not known here.
+// Elastic forces count by Simpson's rule, by how much that differs from the force halfway as error. Damping counts by
+// the change of elastic forces, which turning does not feign: velocities at the end of a step are off by what stiff
+// parts would damp with a multiple of all other forces. Where elements differ it counts by its mean; half of the
+// largest counts as error, since the step took it from a stiffness that is not known here.
 void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, const VecX& way, LoadWork& work) {
     const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good;
     const VecX elastic = elastic_force(plant, x), mean_elastic = 0.5 * (elastic + elastic_force(plant, x_good));
@@ -139,9 +139,10 @@ void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, co
         const Vec3 own = is_turn ? Vec3(point(way, i)) : Vec3(point(way, i) - mean);
         const Vec3 acceleration = (point(plant.state.motion.v, i) - point(plant.step.v_good, i)) / h;
         const Vec3 elastic_change = point(elastic, i) - point(mean_elastic, i), per_second = 2 / h * elastic_change;
-        const Vec3 reaction = mass[i] * acceleration - point(force, i) + elastic_change - damping * per_second;
+        const Vec3 reaction = mass[i] * acceleration - point(force, i) + elastic_change - 2.0 / 3 * point(off_mean, i) -
+                              damping * per_second;
         work.pins += reaction.dot(own);
-        work.error += std::abs(point(off_mean, i).dot(own)) + 0.5 * most * std::abs(per_second.dot(own));
+        work.error += std::abs(point(off_mean, i).dot(own)) / 3 + 0.5 * most * std::abs(per_second.dot(own));
     }
 }
 
