@@ -9,6 +9,26 @@
 namespace frond::test {
 namespace slide_tests {
 
+constexpr double RADIUS = 0.02;  // of stems [m]
+
+// Makes the model of a stem from the origin, on which bodies have their own friction; without a modulus of its own it
+// has that of the preset.
+void make_stem(Stand& stand, const frond_vec3& end, double capsule_height, double young = 0) {
+    frond_model_def def = frond_default_model_def();
+    frond_organ_material organ = {"stem", {}};
+    must(frond_material_preset("stem", &organ.material));
+    if (young > 0) organ.material.young = young;
+    organ.material.friction = 1;
+    def.organs = &organ;
+    def.organ_count = 1;
+    def.scale = 1;
+    def.up = {0, 1, 0};
+    def.rest = FROND_REST_WITHOUT_GRAVITY;
+    def.capsule_height = capsule_height;
+    const frond_stem stem = {-1, {0, 0, 0}, end, RADIUS, RADIUS};
+    must(frond_model_from_stems(&stem, 1, &def, &stand.model));
+}
+
 struct Slide {
     double friction, h, capsule_height;
 };
@@ -19,25 +39,14 @@ INSTANTIATE_TEST_SUITE_P(EveryWay, SlidingBlock,
                                          Slide{0.3, 1.0 / 60, 0.2}, Slide{0.3, 1.0 / 240, 0.2}));
 
 TEST_P(SlidingBlock, IsAcceleratedAsOnAnInclinedPlane) {
-    constexpr double ANGLE = 0.5236, RADIUS = 0.02, LENGTH = 3, HALF = 0.03, FROM = 2.6, G = 9.81;
+    constexpr double ANGLE = 0.5236, LENGTH = 3, HALF = 0.03, FROM = 2.6, G = 9.81;
     const double sine = std::sin(ANGLE), cosine = std::cos(ANGLE);
     const Slide& slide = GetParam();
 
     // A stem that nothing bends: all of it is pinned.
     Stand stand;
     stand.h = slide.h;
-    frond_model_def def = frond_default_model_def();
-    frond_organ_material organ = {"stem", {}};
-    must(frond_material_preset("stem", &organ.material));
-    organ.material.friction = 1;
-    def.organs = &organ;
-    def.organ_count = 1;
-    def.scale = 1;
-    def.up = {0, 1, 0};
-    def.rest = FROND_REST_WITHOUT_GRAVITY;
-    def.capsule_height = slide.capsule_height;
-    const frond_stem stem = {-1, {0, 0, 0}, {LENGTH * cosine, LENGTH * sine, 0}, RADIUS, RADIUS};
-    must(frond_model_from_stems(&stem, 1, &def, &stand.model));
+    make_stem(stand, {LENGTH * cosine, LENGTH * sine, 0}, slide.capsule_height);
     frond_plant_def plant_def = stand.plant_def();
     plant_def.mechanics = FROND_MECHANICS_ROD;
     const frond_plant plant = stand.add(plant_def, {0, 0, 0});
@@ -103,23 +112,11 @@ std::vector<Led> every_lead() {
 INSTANTIATE_TEST_SUITE_P(EveryWay, LedBlock, testing::ValuesIn(every_lead()));
 
 TEST_P(LedBlock, RubsAsTheLawOfFrictionSays) {
-    constexpr double RADIUS = 0.02, HALF = 0.03, PRESSED = 0.005, NEAR = 0.4, FAR = 0.65;
+    constexpr double HALF = 0.03, PRESSED = 0.005, NEAR = 0.4, FAR = 0.65;
     const Led& led = GetParam();
     Stand stand;
     stand.h = led.h;
-    frond_model_def def = frond_default_model_def();
-    frond_organ_material organ = {"stem", {}};
-    must(frond_material_preset("stem", &organ.material));
-    organ.material.young = 1e9;
-    organ.material.friction = 1;
-    def.organs = &organ;
-    def.organ_count = 1;
-    def.scale = 1;
-    def.up = {0, 1, 0};
-    def.rest = FROND_REST_WITHOUT_GRAVITY;
-    def.capsule_height = 0.05;
-    const frond_stem stem = {-1, {0, 0, 0}, {1, 0, 0}, RADIUS, RADIUS};
-    must(frond_model_from_stems(&stem, 1, &def, &stand.model));
+    make_stem(stand, {1, 0, 0}, 0.05, 1e9);
     frond_plant_def plant_def = stand.plant_def();
     plant_def.mechanics = led.mechanics;
     const frond_plant plant = stand.add(plant_def, {0, 0, 0});

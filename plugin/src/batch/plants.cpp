@@ -169,8 +169,8 @@ bool is_plausible(Plant& plant, const Batch& step, int lane, double h) {
     return plausible && !is_far_out(plant);
 }
 
-// Leaves in the plant all that solve_plant() leaves of a healthy step; `goes_on`: contacts move it from
-// there. False, with the motion unchanged: the plant has to be stepped alone.
+// Leaves in the plant all that solve_plant() leaves of a healthy step; `goes_on`: contacts move it from there. False,
+// with the motion unchanged: the plant has to be stepped alone.
 bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& settings, bool may_be_off, bool goes_on,
                double h) {
     const Batch& step = space.step;

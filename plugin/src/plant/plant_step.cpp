@@ -67,6 +67,18 @@ static bool is_sound(const Plant& plant) {
            !has_run_away(plant);
 }
 
+// Solves the step again from its start, with fibres, by a search.
+static void search_from_start(Plant& plant, SolveSettings settings, int iterations, double h) {
+    settings.newton_iterations = std::max(settings.newton_iterations, iterations);
+    settings.careful = true;
+    plant.state.motion.x = plant.step.x_good;
+    plant.state.motion.v = plant.step.v_good;
+    plant.step.loads.fibres = fibres_of(plant);
+    const SolveReport before = plant.report;
+    plant.report = solve_step(*plant.step.workspace, settings, plant.step.loads, h, plant.state.motion);
+    plant.report.add_cost(before);
+}
+
 // Solves again from the start of the step by minimising its potential, in which contacts push by forces: no iterate has
 // more than the start, so the first and any later one is a step that can be taken.
 static void minimise(Plant& plant, frond_integrator method, double h, bool from_rest) {
@@ -77,25 +89,17 @@ static void minimise(Plant& plant, frond_integrator method, double h, bool from_
     SolveSettings settings = plant.step.settings;
     settings.most_work = is_pushed(plant) ? std::max(LEAST_WORK, MOST_WORK - plant.report.work) : MOST_WORK;
     settings.integrator = method;
-    settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
-    settings.careful = true;
     settings.from_rest = from_rest;
     plant.trouble |= FROND_TROUBLE_RETRIED;
-    Motion& motion = plant.state.motion;
-    motion.x = plant.step.x_good;
-    motion.v = plant.step.v_good;
     const VecX force = plant.step.loads.force;
     if (is_pushed(plant)) {
         plant.step.loads.force = plant.step.push->share / h * plant.step.push->impulse;
         if (force.size() > 0) plant.step.loads.force += force;
     }
-    const SolveReport before = plant.report;
-    plant.step.loads.fibres = fibres_of(plant);
-    plant.report = solve_step(*plant.step.workspace, settings, plant.step.loads, h, motion);
-    plant.report.add_cost(before);
+    search_from_start(plant, settings, ITERATIONS, h);
     plant.step.loads.force = force;
     // A step of its own integrator ends as that would, so the next one needs no damping.
-    motion.history.shaken = method != plant.step.settings.integrator;
+    plant.state.motion.history.shaken = method != plant.step.settings.integrator;
 }
 
 // Solves again with fibres, to convergence. A fibre that becomes taut is an impact: an integrator that looks back, or
@@ -104,17 +108,10 @@ static void converge_with_fibres(Plant& plant, bool is_impact, double h) {
     constexpr int ITERATIONS = 10, MOST_WORK = 200;  // Newton iterations, evaluations of all forces
     const Timer timer;
     SolveSettings settings = plant.step.settings;
-    settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
-    settings.careful = true;
     settings.most_work = MOST_WORK;
     if (is_impact) settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
-    const SolveReport before = plant.report;
-    plant.state.motion.x = plant.step.x_good;
-    plant.state.motion.v = plant.step.v_good;
-    plant.step.loads.fibres = fibres_of(plant);
-    plant.report = solve_step(*plant.step.workspace, settings, plant.step.loads, h, plant.state.motion);
+    search_from_start(plant, settings, ITERATIONS, h);
     if (is_impact) plant.state.motion.history.shaken = true;
-    plant.report.add_cost(before);
     look_at_fibres(plant);
     plant.ms_fibres = timer.ms();
 }
