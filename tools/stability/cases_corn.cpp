@@ -99,7 +99,9 @@ void jerk(Bench& bench) {
 
 // The plant is flung sideways by a hundred times gravity, with plasticity.
 void fling(Bench& bench) {
-    constexpr double LIES = 1, SLOW = 1;  // mean displacement over size, as it may lie on the ground [-]; [m/s]
+    // Mean displacement over size, as it may lie on the ground [-]; of a leaf's tip, whose speed is 0.8 to 0.9 m/s
+    // after this time with steps of 20 Newton iterations [m/s].
+    constexpr double LIES = 1, SLOW = 1.5;
     bench.plant_def.effects |= FROND_EFFECT_PLASTICITY;
     const StandingCorn corn = stand_on_ground(bench);
     must(frond_world_set_gravity(bench.world(), {650, 50, 850}));
@@ -122,7 +124,7 @@ std::vector<Case> corn_cases() {
          back, drag},
         {"corn_jerked", "the foot of a corn plant put 0.85 of its size away within a step, and back", back, jerk},
         {"corn_flung", "100 g sideways on a corn plant with plasticity for 0.4 s",
-         "finite; after 5 s no tet inside out, nodes within its size as it may lie, slower than 1 m/s", fling},
+         "finite; after 5 s no tet inside out, nodes within its size as it may lie, slower than 1.5 m/s", fling},
     };
 }
 

@@ -159,10 +159,11 @@ static void for_each_fibre(const Plant& plant, const Use& use) {
     for_each_tie(plant, use);
 }
 
-std::unique_ptr<std::vector<Fibre>> fibres_of(const Plant& plant) {
+std::unique_ptr<FibreLoads> fibres_of(const Plant& plant) {
     if (!plant.fibres || !plant.step.has_fibres) return nullptr;
-    auto fibres = std::make_unique<std::vector<Fibre>>();
-    for_each_fibre(plant, [&](const Fibre& fibre) { fibres->push_back(fibre); });
+    auto fibres = std::make_unique<FibreLoads>();
+    fibres->tolerance = no_matter_of_fibres(plant);
+    for_each_fibre(plant, [&](const Fibre& fibre) { fibres->list.push_back(fibre); });
     return fibres;
 }
 

@@ -3,7 +3,7 @@
 // 0.3 mm in cells of 24 mm it is the 1/6400th part.
 //
 // Fibres lie along capsules, and are slack up to a small stretch, so small motions, the rest shape and the fit of the
-// cage are unaffected. A step in which one is taut is solved with all of them, to convergence.
+// cage are unaffected. A step that begins with a taut one is solved with all of them, until a solve meets their energy.
 #pragma once
 
 #include "solve/solve.hpp"
@@ -29,7 +29,7 @@ Attachment pulled_at_node(const Plant& plant, int node);
 Attachment pulled_at_vertex(const Plant& plant, int vertex);
 
 // Returns the plant's fibres for a solve, and ties of grabbed vertices to both ends of their capsules.
-std::unique_ptr<std::vector<Fibre>> fibres_of(const Plant& plant);
+std::unique_ptr<FibreLoads> fibres_of(const Plant& plant);
 // Looks what fibres store now.
 void look_at_fibres(Plant& plant);
 // Lets fibres of an entangled plant lengthen, as crossed leaves come apart only by being stretched, and shorten

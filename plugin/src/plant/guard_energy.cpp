@@ -94,15 +94,8 @@ bool keeps_course(Plant& plant, double h) {
     return !(is_asked && has_energy_from_nowhere(plant, allowed, h)) && !has_run_away(plant);
 }
 
-static double no_matter_of_fibres(const Plant& plant) {
+double no_matter_of_fibres(const Plant& plant) {
     return CONVERGED.lift * lifting_energy(plant);
-}
-
-bool snaps(Plant& plant, double h) {
-    const double none = no_matter_of_fibres(plant);
-    const bool may_snap = double(plant.state.stretched) > none ||
-                          (plant.step.loads.fibres && fibre_energy(plant, plant.step.x_good) > none);
-    return may_snap && has_energy_from_nowhere(plant, CONVERGED, h);
 }
 
 bool fibre_becomes_taut(const Plant& plant) {

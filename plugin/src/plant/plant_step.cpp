@@ -67,10 +67,10 @@ static bool is_sound(const Plant& plant) {
            !has_run_away(plant);
 }
 
-// Solves the step again from its start, with fibres, by a search.
-static void search_from_start(Plant& plant, SolveSettings settings, int iterations, double h) {
-    settings.newton_iterations = std::max(settings.newton_iterations, iterations);
-    settings.careful = true;
+constexpr int ENOUGH = 10;  // Newton iterations, of which most steps take two to four
+
+// Solves the step again from its start, with fibres.
+static void solve_from_start(Plant& plant, const SolveSettings& settings, double h) {
     plant.state.motion.x = plant.step.x_good;
     plant.state.motion.v = plant.step.v_good;
     plant.step.loads.fibres = fibres_of(plant);
@@ -90,28 +90,29 @@ static void minimise(Plant& plant, frond_integrator method, double h, bool from_
     settings.most_work = is_pushed(plant) ? std::max(LEAST_WORK, MOST_WORK - plant.report.work) : MOST_WORK;
     settings.integrator = method;
     settings.from_rest = from_rest;
+    settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
+    settings.careful = true;
     plant.trouble |= FROND_TROUBLE_RETRIED;
     const VecX force = plant.step.loads.force;
     if (is_pushed(plant)) {
         plant.step.loads.force = plant.step.push->share / h * plant.step.push->impulse;
         if (force.size() > 0) plant.step.loads.force += force;
     }
-    search_from_start(plant, settings, ITERATIONS, h);
+    solve_from_start(plant, settings, h);
     plant.step.loads.force = force;
     // A step of its own integrator ends as that would, so the next one needs no damping.
     plant.state.motion.history.shaken = method != plant.step.settings.integrator;
 }
 
-// Solves again with fibres, to convergence. A fibre that becomes taut is an impact: an integrator that looks back, or
-// ahead within the step, would let it spring back faster than it came, so that step and the next are of implicit Euler.
-static void converge_with_fibres(Plant& plant, bool is_impact, double h) {
-    constexpr int ITERATIONS = 10, MOST_WORK = 200;  // Newton iterations, evaluations of all forces
+// Solves again where a fibre became taut. That is an impact: an integrator that looks back, or ahead within the step,
+// would let it spring back faster than it came, so this step and the next are of implicit Euler.
+static void stop_by_fibres(Plant& plant, double h) {
     const Timer timer;
     SolveSettings settings = plant.step.settings;
-    settings.most_work = MOST_WORK;
-    if (is_impact) settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
-    search_from_start(plant, settings, ITERATIONS, h);
-    if (is_impact) plant.state.motion.history.shaken = true;
+    settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
+    settings.newton_iterations = std::max(settings.newton_iterations, ENOUGH);
+    solve_from_start(plant, settings, h);
+    plant.state.motion.history.shaken = true;
     look_at_fibres(plant);
     plant.ms_fibres = timer.ms();
 }
@@ -170,7 +171,6 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects) {
     if (!(effects & FROND_EFFECT_DAMPING))
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
-    constexpr int ENOUGH = 10;  // Newton iterations, of which most steps take two to four
     if (hold_several_places(plant)) settings.newton_iterations = std::max(settings.newton_iterations, ENOUGH);
     // Contacts add their response to the linear solution first.
     settings.is_touched = plant.state.is_touched;
@@ -211,13 +211,8 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.step.starts_anew =
         integrator(plant.input.settings.integrator).looks_back && !motion.history.valid && !motion.history.shaken;
     plant.report = solve_in_substeps(plant, h);
-    const bool is_impact = plant.report.ok && fibre_becomes_taut(plant);
-    bool gains = is_impact || (plant.report.ok && snaps(plant, h));
-    if (gains) {
-        converge_with_fibres(plant, is_impact, h);
-        gains = plant.report.ok && snaps(plant, h);
-    }
-    if (!plant.report.ok || gains || !is_plausible(plant, h)) solve_again(plant, h);
+    if (plant.report.ok && fibre_becomes_taut(plant)) stop_by_fibres(plant, h);
+    if (!plant.report.ok || !is_plausible(plant, h)) solve_again(plant, h);
     finish_solving(plant);
 }
 

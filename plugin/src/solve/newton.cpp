@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "core/timer.hpp"
+#include "solve/springs.hpp"
 #include "solve/stage_equations.hpp"
 
 namespace frond {
@@ -21,12 +22,25 @@ namespace frond {
 namespace {
 
 struct Newton : StageEquations {
-    int iterations = 1;      // most Newton iterations
-    bool is_long = false;    // the step is longer than the period of hanging parts, and has one solve
-    bool is_pulled = false;  // springs pull at rods from afar, and the step has one solve
-    bool skipped = false;    // the first solve was left to the line search
-    int most_work = 0;       // limit of report.work; 0: none
+    int iterations = 1;       // most Newton iterations
+    bool is_long = false;     // the step is longer than the period of hanging parts, and has one solve
+    bool is_pulled = false;   // springs pull at rods from afar, and the step has one solve
+    bool for_fibres = false;  // the step has one solve, and more if that misses fibres
+    bool skipped = false;     // the first solve was left to the line search
+    int most_work = 0;        // limit of report.work; 0: none
 };
+
+// Returns by how much the energy of fibres after a solve from velocities v_from differs from what it took it for [J].
+double miss_of_fibres(Newton& n, const VecX& v_from) {
+    set_positions(n, v_from);
+    const VecX from = n.w.x;
+    set_positions(n, n.w.v);
+    double miss = 0;
+    for_each_fibre(n.input.loads, [&](const Fibre& fibre) { miss += error_of_linearization(fibre, from, n.w.x); });
+    return miss;
+}
+
+constexpr int ITERATIONS_FOR_FIBRES = 10;  // solves granted to a stage whose first one misses them
 
 // Approximate cost of a factor, in evaluations of the forces.
 constexpr int WORK_OF_FACTOR = 4;
@@ -80,8 +94,8 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
 }
 
 // Goes along dv as far as the residual decreases while the potential stays below `most`, or the potential decreases
-// enough (Armijo 1966; Nocedal and Wright 2006, section 3.1). Returns false if neither does.
-bool search_line(Newton& n, double most, VecX& rhs, double& norm) {
+// enough (Armijo 1966; Nocedal and Wright 2006, section 3.1). Returns the part of dv that it went, 0 if neither does.
+double search_line(Newton& n, double most, VecX& rhs, double& norm) {
     constexpr int HALVINGS = 12;       // of a direction; a step of a 4000th is none
     constexpr double DESCENT = 1e-4;   // share of the linear decrease that is enough [-]
     constexpr double ROUNDING = 1e-6;  // relative change of a potential that is none [-]
@@ -102,9 +116,9 @@ bool search_line(Newton& n, double most, VecX& rhs, double& norm) {
         std::swap(rhs, w.rhs_trial);
         norm = norm_trial;
         w.dv = part * direction;
-        return true;
+        return part;
     }
-    return false;
+    return 0;
 }
 
 // Starts the search at rest if the potential is less there. If straight motion would wind segments up, a search from
@@ -176,7 +190,8 @@ constexpr double TINY = 1e-11;
 // as it does for a plant stretched to many times its length.
 constexpr double FAR = 1;
 
-// Does further solves until the residual is small against the first one, or changes reach the resolution of double.
+// Does further solves until the residual is small against the first one, or changes reach the resolution of double; for
+// fibres alone, until a solve does not miss them.
 bool iterate(Newton& n, double first) {
     const SolveSettings& s = n.input.settings;
     Workspace& w = n.w;
@@ -187,14 +202,16 @@ bool iterate(Newton& n, double first) {
     n.report.ms_assembly += timer.lap();
     const double most = s.careful || n.is_pulled ? potential_at(n, w.v) : INFINITY;
     Tangent tangent = Tangent::exact;
-    bool has_moved = !n.skipped;
+    bool has_moved = !n.skipped, meets_fibres = false;
     for (int iteration = 1;; ++iteration) {
-        n.report.converged = norm <= s.newton_tolerance * first || change <= TINY * n.system.size;
+        n.report.converged = norm <= s.newton_tolerance * first || change <= TINY * n.system.size || meets_fibres;
         if (n.report.converged || iteration == n.iterations || is_spent(n)) return std::isfinite(norm);
         if (!find_direction(n, tangent, rhs)) return false;
         timer.lap();
         change = w.dv.cwiseAbs().maxCoeff() * n.stage.step;
-        const bool better = search_line(n, most, rhs, norm);
+        const double part = search_line(n, most, rhs, norm);
+        const bool better = part > 0;
+        meets_fibres = n.for_fibres && part == 1 && miss_of_fibres(n, w.v - w.dv) <= n.input.loads.fibres->tolerance;
         n.report.ms_assembly += timer.lap();
         // The exact stiffness may give a direction that does not descend; the positive one's does.
         if (!better && tangent == Tangent::positive) {
@@ -219,12 +236,14 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     n.rayleigh = workspace.damping_scale;
     n.iterations = stage.iterations > 0 ? stage.iterations : settings.newton_iterations;
     n.apart = !workspace.element_damping.empty();
+    n.for_fibres = input.loads.fibres && n.iterations == 1 && !settings.careful;
     n.is_pulled = system.row->moves_chain && input.loads.springs_are_far && n.iterations == 1;
     n.is_long = is_long_stage(system, stage.step) && n.iterations == 1;
     n.exact = n.is_long || n.is_pulled;
     n.keep_damping =
-        n.apart || (n.rayleigh > 0 && (n.iterations > 1 || n.exact || n.body.needs_search || settings.careful));
-    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.exact && !settings.careful;
+        n.apart ||
+        (n.rayleigh > 0 && (n.iterations > 1 || n.for_fibres || n.exact || n.body.needs_search || settings.careful));
+    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.for_fibres && !n.exact && !settings.careful;
     if (settings.careful && settings.most_work > 0) n.most_work = report.work + settings.most_work;
     workspace.v = workspace.v_start;
     follow_guides(n, workspace.v);
@@ -233,6 +252,8 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     const bool converged_before = report.converged;
     const double first = solve_first(n);
     if (first < 0) return false;
+    if (n.for_fibres && miss_of_fibres(n, workspace.v_start) > input.loads.fibres->tolerance)
+        n.iterations = ITERATIONS_FOR_FIBRES;
     if (n.iterations > 1 && !iterate(n, first)) return false;
     report.converged &= converged_before;
     set_positions(n, workspace.v);

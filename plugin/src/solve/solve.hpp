@@ -36,6 +36,12 @@ struct Fibre {
     double stiffness;  // [N/m]
 };
 
+// Those of a solve. A stage of one solve that misses their energy by more than the tolerance has others.
+struct FibreLoads {
+    std::vector<Fibre> list;
+    double tolerance;  // [J]
+};
+
 // Resistance to the motion of a point of the plant: force - damping times the point's velocity. Only for attachments
 // without rotating arms.
 struct Drag {
@@ -98,7 +104,7 @@ struct Loads {
     Vec3 gravity = Vec3::Zero();  // [m/s^2]; applied through the mass matrix
     std::vector<Spring> springs;
     bool springs_are_far = false;  // some pull from farther than their derivative holds for: see lead_pin_springs()
-    std::unique_ptr<std::vector<Fibre>> fibres;  // of the plant itself; null: none is taut
+    std::unique_ptr<FibreLoads> fibres;  // of the plant itself; null: none is taut
     std::vector<Drag> drags;
     const std::vector<Guide>* guides = nullptr;  // borrowed; null: no node is held in part
 };

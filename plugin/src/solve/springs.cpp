@@ -51,6 +51,22 @@ double fibre_energy(const Fibre& fibre, const VecX& x) {
     return over > 0 ? 0.5 * fibre.stiffness * over * over : 0;
 }
 
+static Mat3 stiffness_between_ends(const Fibre& fibre, const Vec3& way) {
+    const double length = way.norm(), over = length - fibre.length;
+    const Vec3 along = way / length;
+    const Mat3 onto = along * along.transpose();
+    return fibre.stiffness * (onto + over / length * (Mat3::Identity() - onto));
+}
+
+double error_of_linearization(const Fibre& fibre, const VecX& from, const VecX& to) {
+    const Vec3 before = way_along(fibre, from), change = way_along(fibre, to) - before;
+    const double over = before.norm() - fibre.length;
+    if (!(over > 0)) return fibre_energy(fibre, to);
+    const double first = fibre.stiffness * over * before.normalized().dot(change),
+                 second = 0.5 * change.dot(stiffness_between_ends(fibre, before) * change);
+    return std::abs(fibre_energy(fibre, to) - fibre_energy(fibre, from) - first - second);
+}
+
 void add_fibre_force(const Fibre& fibre, const VecX& x, VecX& f) {
     const Vec3 way = way_along(fibre, x);
     const double length = way.norm(), over = length - fibre.length;
@@ -62,11 +78,8 @@ void add_fibre_force(const Fibre& fibre, const VecX& x, VecX& f) {
 
 void add_fibre_stiffness(const Fibre& fibre, const VecX& x, double scale, BlockMatrix& A) {
     const Vec3 way = way_along(fibre, x);
-    const double length = way.norm(), over = length - fibre.length;
-    if (!(over > 0)) return;
-    const Vec3 along = way / length;
-    const Mat3 onto = along * along.transpose();
-    const Mat3 stiffness = scale * fibre.stiffness * (onto + over / length * (Mat3::Identity() - onto));
+    if (!(way.norm() > fibre.length)) return;
+    const Mat3 stiffness = scale * stiffness_between_ends(fibre, way);
     // Both ends' nodes, each once.
     constexpr size_t MOST = 2 * size_t(Attachment::MOST);
     std::array<int, MOST> node;

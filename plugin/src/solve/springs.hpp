@@ -17,11 +17,13 @@ double fibre_energy(const Fibre& fibre, const VecX& x);
 void add_fibre_force(const Fibre& fibre, const VecX& x, VecX& f);
 // Adds the exact stiffness, which is positive as a fibre only pulls.
 void add_fibre_stiffness(const Fibre& fibre, const VecX& x, double scale, BlockMatrix& A);
+// Returns by how much the energy at `to` differs from that of the force and the stiffness at `from` [J].
+double error_of_linearization(const Fibre& fibre, const VecX& from, const VecX& to);
 // Calls `use` for each fibre of a solve.
 template <class Use>
 void for_each_fibre(const Loads& loads, const Use& use) {
     if (!loads.fibres) return;
-    for (const Fibre& fibre : *loads.fibres) use(fibre);
+    for (const Fibre& fibre : loads.fibres->list) use(fibre);
 }
 
 }  // namespace frond
