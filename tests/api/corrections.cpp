@@ -72,6 +72,24 @@ TEST(Organs, KnowWhatTheyGrowOutOf) {
     frond_model_destroy(model);
 }
 
+// By their sections the ears alone weighed more than this plant.
+TEST(Organs, WeighTogetherWhatThePlantWeighs) {
+    frond_model_def def = frond_default_model_def();
+    def.allow_stiffening = INFINITY;
+    frond_model model = {};
+    ASSERT_EQ(frond_model_load(FROND_SOURCE_DIR "/tests/corpus/quaternius/Corn_2.glb", &def, &model), FROND_OK);
+    frond_model_info info;
+    ASSERT_EQ(frond_model_get_info(model, &info), FROND_OK);
+    double sum = 0;
+    for (int i = 0; i < info.organ_count; i++) {
+        frond_organ organ;
+        ASSERT_EQ(frond_model_get_organ(model, i, &organ), FROND_OK);
+        sum += organ.mass;
+    }
+    EXPECT_NEAR(sum, info.mass, 1e-9 * info.mass);
+    frond_model_destroy(model);
+}
+
 TEST(Corrections, ChangeKindsAndLeaveOrgansOut) {
     const Loaded found = load(frond_default_model_def());
     ASSERT_EQ(found.kinds.at("blade_1"), "blade");

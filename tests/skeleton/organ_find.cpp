@@ -121,6 +121,8 @@ TEST(OrganNames, ThatAllPartsShareAreThePlants) {
                      {"FlowerPot6", "FlowersFlowerPot6"}}),
               Kinds({"support", "blade", "flower"}));
     EXPECT_EQ(kinds({{"leaf_1", ""}, {"leaf_2", ""}}), Kinds({"blade", "blade"}));
+    EXPECT_EQ(kinds({{"Plane", "WildFlower"}}), Kinds({""}));
+    EXPECT_EQ(kinds({{"WildFlower", "WildFlower"}}), Kinds({""}));
 }
 
 TEST(OrganNames, OfColorsAreNoFruits) {
@@ -213,6 +215,15 @@ TEST(Organs, OfABushMayBeFoliageFromTheGroundOn) {
         for (const Organ& organ : grow(sketch).organs) has_crown = has_crown || organ.kind == "crown";
         EXPECT_EQ(has_crown, std::string(name) != "Object_1") << name;
     }
+    // However small it is; solid it weighed 250 times as much.
+    Sketch small = ball_tree();
+    for (Vec3& position : small.surface.positions) position.y() = position.y() <= 4 ? 0 : position.y() - 4;
+    for (Vec3& position : small.surface.positions) position *= 0.3 / small.surface.height();
+    for (Part& part : small.surface.parts) part.name = "Bush_1";
+    clean_surface(small.surface);
+    const Grown grown = grow(small);
+    EXPECT_TRUE(std::any_of(grown.organs.begin(), grown.organs.end(),
+                            [](const Organ& organ) { return organ.kind == "crown"; }));
 }
 
 TEST(Organs, ThatAreGreenAndGrowOnWoodAreFoliage) {

@@ -384,14 +384,14 @@ typedef struct frond_texture_view {
 /* An organ, and the ranges of its sections, one per capsule of the chain. Sections are the organ's own, of a rod or a
  * strip, not those of the cage around it, and their EI and GJ those by which a tapering capsule yields. A small organ
  * can lie within another one's capsules, and a rib drawn along a blade is one beam with it, counted in the blade's
- * sections; all fields from capsule_count on are then 0. */
+ * sections; lengths and sections are then 0. */
 typedef struct frond_organ {
     const char* name;        /* "leaf_3"; no two organs of a model share one */
     const char* kind;        /* "stem", "blade" ... */
     frond_material material; /* the preset of its kind, or what frond_model_def.organs put in its place */
     int capsule_count;
     double length;            /* length of its capsules [m] */
-    double mass;              /* mass of its sections times their lengths [kg] */
+    double mass;              /* of all that is drawn of it; all together: the plant's mass [kg] */
     frond_range thickness;    /* outer size where the section is thinnest [m] */
     frond_range width;        /* outer size across that; of a blade as if it were laid flat [m] */
     frond_range area;         /* area of tissue: a tube's is its wall's [m^2] */

@@ -122,7 +122,6 @@ static void describe_sections(const Model& model, int organ, frond_organ& view) 
         const Section& section = model.sections[i];
         const bool first = view.capsule_count++ == 0;
         view.length += section.length;
-        view.mass += section.length * section.mass();
         widen(view.thickness, section.thickness, first);
         widen(view.width, section.width, first);
         widen(view.area, section.area, first);
@@ -277,6 +276,7 @@ frond_result frond_model_get_organ(frond_model model, int organ, frond_organ* ou
         view.certainty = o.certainty;
         view.parent = m.organ_parents[size_t(organ)];
         view.material = o.material;
+        view.mass = m.organ_masses()[size_t(organ)];
         describe_sections(m, organ, view);
     });
 }

@@ -10,6 +10,8 @@ struct Cage {
     std::vector<Tet> tets;         // positive volume
     std::vector<int> tet_organ;    // index into Model::organs
     std::vector<double> tet_fill;  // share of the tet's volume that is plant [-], > 0
+    // Volume of plant of each organ [m^3], also of one that shares all its tets with larger ones; empty: tets tell.
+    std::vector<double> organ_tissue;
 };
 
 // Attachment of each surface vertex: position = sum of weights[k] * node(tet[k]). Weights add up to one; they are all

@@ -261,6 +261,21 @@ static void choose_organs(Filler& filler) {
     }
 }
 
+// Returns the volume of plant of each organ: of its sheets, and its share by area in what closed patches enclose.
+static std::vector<double> measure_tissue(const std::vector<int>& triangle_organ, size_t organ_count,
+                                          const Draft& draft) {
+    std::vector<double> tissue(organ_count, 0.0);
+    for (size_t t = 0; t < triangle_organ.size(); ++t) {
+        const Patch& patch = draft.patches.patches[size_t(draft.patches.triangle_patch[t])];
+        if (draft.patches.repeated[t] || !(patch.area > 0)) continue;
+        const Triangle& corner = draft.topology.triangles[t];
+        const Vec3& a = draft.topology.points[size_t(corner[0])];
+        const Vec3 u = draft.topology.points[size_t(corner[1])] - a, v = draft.topology.points[size_t(corner[2])] - a;
+        tissue[size_t(triangle_organ[t])] += 0.5 * u.cross(v).norm() * patch.tissue / patch.area;
+    }
+    return tissue;
+}
+
 void fill_cage(const std::vector<int>& triangle_organ, const std::vector<Organ>& organs, Draft& draft) {
     const size_t count = draft.cage.tets.size();
     Filler filler{triangle_organ, organs, draft, {}, {}, {}, {}, {}};
@@ -287,6 +302,7 @@ void fill_cage(const std::vector<int>& triangle_organ, const std::vector<Organ>&
     place_leftovers(filler);
     level(filler);
     choose_organs(filler);
+    draft.cage.organ_tissue = measure_tissue(triangle_organ, organs.size(), draft);
 }
 
 }  // namespace frond

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cage/tet_geometry.hpp"
 #include "core/decompose.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
@@ -49,10 +48,7 @@ std::string roll_pitch_yaw(const Quat& q) {
 // Returns what each organ weighs in the plant over the mass of its sections [-]: what its tets do, or its sections if
 // it has none, and all together what the plant does.
 std::vector<double> mass_factors(const Model& model) {
-    std::vector<double> weights(model.organs.size(), 0.0), of_sections = weights;
-    for (size_t e = 0; e < model.cage.tets.size(); e++)
-        weights[size_t(model.cage.tet_organ[e])] +=
-            model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
+    std::vector<double> weights = model.organ_masses(), of_sections(weights.size(), 0.0);
     for (size_t i = 0; i < model.sections.size(); i++)
         if (model.chain.nodes[i].parent >= 0)
             of_sections[size_t(std::max(model.chain.nodes[i].organ, 0))] +=

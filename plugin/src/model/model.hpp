@@ -64,6 +64,7 @@ struct Model {
     double ms_import = 0, ms_cage = 0, ms_chain = 0, ms_total = 0;
 
     double mass() const;                                   // [kg]
+    std::vector<double> organ_masses() const;              // of each organ, mass() together [kg]
     const std::vector<double>& young_of(int order) const;  // moduli of the tets, as elements of an order [Pa]
 };
 

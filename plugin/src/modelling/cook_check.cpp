@@ -204,6 +204,8 @@ void check_cage(const Model& model) {
     for (const Tet& tet : cage.tets) need(tet_volume(cage.nodes, tet) > 0, "a tet has no volume");
     need_indices(cage.tet_organ, model.organs.size(), "a tet is of no organ");
     need_positive(cage.tet_fill, "a tet is empty");
+    need(cage.organ_tissue.empty() || cage.organ_tissue.size() == model.organs.size(), "an organ has no volume");
+    for (double tissue : cage.organ_tissue) need(is_in(tissue, 0, LARGEST_NUMBER), "an organ's volume is out of range");
     need_positive(model.tet_density, "a tet's density is out of range");
     need_positive(model.tet_young, "a tet's modulus is out of range");
     for (double poisson : model.tet_poisson) need(is_in(poisson, 0, 0.499), "a tet's Poisson ratio is out of range");

@@ -44,8 +44,8 @@ static void visit(Archive& a, Section& section) {
 }
 
 static void visit(Archive& a, Cage& cage) {
-    auto& [nodes, tets, tet_organ, tet_fill] = cage;
-    a(nodes, tets, tet_organ, tet_fill);
+    auto& [nodes, tets, tet_organ, tet_fill, organ_tissue] = cage;
+    a(nodes, tets, tet_organ, tet_fill, organ_tissue);
 }
 
 static void visit(Archive& a, Embedding& embedding) {

@@ -5,8 +5,6 @@
 
 namespace frond {
 
-constexpr double CROWN_HEIGHT = 0.4;  // lower plants have no crown [m]
-
 struct Evidence {
     const Surface& surface;
     const std::vector<Region>& regions;

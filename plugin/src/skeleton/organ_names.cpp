@@ -312,20 +312,20 @@ std::vector<std::string> kinds_by_name(const Surface& surface) {
     if (distinct.size() > 1) whole_materials = find_common_words(all_materials);
     const bool palette = has_palette(surface);
     // A species that every part is named after is the whole plant, not its fruit.
-    size_t species = 0, roots = 0, flowers = 0;
+    size_t species = 0, roots = 0;
     for (size_t i = 0; i < count; i++) {
         names[i] = read_name(without(all_names[i], whole_names));
         if (!palette || !is_color_name(all_materials[i], true))
             materials[i] = read_name(without(all_materials[i], whole_materials));
         species += names[i].species;
         roots += names[i].kind == "root";
-        flowers += names[i].kind == "flower" && !names[i].species;
     }
     for (size_t i = 0; i < count; i++) {
-        // If every mesh is named "root", that is the top of a scene graph; a lone "flower" includes its stem and
-        // leaves.
+        // If every mesh is named "root", that is the top of a scene graph; a lone "flower", by its node or material,
+        // includes its stem and leaves.
         if (names[i].kind == "root" && roots == count) names[i] = {};
-        if (names[i].kind == "flower" && flowers == 1 && count == 1) names[i] = {};
+        for (NameClue* clue : {&names[i], &materials[i]})
+            if (count == 1 && clue->kind == "flower" && !clue->species) *clue = {};
         for (const NameClue* clue : {&names[i], &materials[i]})
             if (kinds[i].empty() && !clue->species) kinds[i] = clue->kind;
         const bool whole_plant = count == 1 || species == count;

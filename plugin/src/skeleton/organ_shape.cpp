@@ -86,6 +86,7 @@ static std::vector<char> find_skins(const Topology& topology, const std::vector<
 std::vector<char> find_crowns(const Surface& surface, const Topology& topology, bool on_ground) {
     constexpr double FULL = 0.2;     // least share of its box that a solid fills: a cone fills 0.26, a ball 0.52
     constexpr double COMPACT = 0.2;  // least 36 pi V^2 / A^3: a ball has 1, a cube 0.52; a rosette of thick leaves 0.1
+    if (!on_ground && surface.height() < CROWN_HEIGHT) return std::vector<char>(topology.triangles.size(), 0);
     const std::vector<int> lump_of = number_lumps(surface, topology);
     const std::vector<Lump> lumps = measure_lumps(topology, lump_of);
     constexpr double FILLED = 0.35, COVERED = 0.45;  // least area, as a share of that of the box

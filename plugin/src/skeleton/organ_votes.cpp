@@ -72,7 +72,7 @@ void vote_by_shape(const Evidence& plant, size_t r, Ballot& ballot) {
     const Vec3 size = region.box.sizes();
     if (is_rooted_tuber(plant, r) || is_point(plant, r))
         ballot.add("root", 3, sized("solid at the foot that bears leaves,", size.maxCoeff(), size.minCoeff()));
-    else if (plant.crown[r] > 0.5 && plant.height > CROWN_HEIGHT && !(region.form == Form::TUBE && region.solids > 0))
+    else if (plant.crown[r] > 0.5 && !(region.form == Form::TUBE && region.solids > 0))
         ballot.add("crown", 3, sized("large round solid,", size.maxCoeff(), size.minCoeff()));
     else if (surrounds_wood(plant, region) || surrounds_trunk(plant, r))
         ballot.add("crown", 3, sized("foliage around wood,", size.maxCoeff(), size.minCoeff()));
