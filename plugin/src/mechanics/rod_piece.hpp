@@ -68,22 +68,18 @@ FROND_INLINE Lanes33<S> inertia_by_rate(const Lanes3<S>& turn, const Lanes33<S>&
     return transposed_times(rate, inertia * rate);
 }
 
-// A segment cannot fold onto itself: beyond two radians between the axes of its ends the measure of its curvature grows
-// faster than the angle, to 4.5 times at half a turn, where bending would change its sign. `quarter` is the axis of the
-// rotation times tan(angle/4), of which `bending` is the part across the segment; `over_angle` is tan(angle/4) over the
-// angle. Sets the growth and its derivative by the rotation vector.
+// A segment cannot turn half way round against itself, by bending, twist or both, as there the midway frame would flip
+// and its moments change their sign: beyond two radians the measure of bending and twist grows faster than the angle,
+// to 2.7 times at half a turn. `quarter` is the axis of the rotation times tan(angle/4), of the given square. Sets the
+// growth and its derivative by the rotation vector, which is along that.
 template <class S>
-FROND_INLINE void fold_up(const Lanes3<S>& quarter, const S& square, const Lanes3<S>& bending, const S& over_angle,
-                          S& fold, Lanes3<S>& fold_slope) {
+FROND_INLINE void fold_up(const Lanes3<S>& quarter, const S& square, S& fold, Lanes3<S>& fold_slope) {
     constexpr double FROM = 0.29844638;  // tan(angle/4)^2 at two radians
-    constexpr double STIFFNESS = 10;     // so that the growth at half a turn is 4.5 times [-]
-    const S bent = dot(bending, bending);
-    const S beyond = select(bent < FROM, constant<S>(0), S(bent - FROM));
+    constexpr double STIFFNESS = 5;      // so that the growth at half a turn is 2.7 times [-]
+    const S beyond = select(square < FROM, constant<S>(0), S(square - FROM));
     const S grown = STIFFNESS * beyond * beyond;
     fold = 1.0 + grown * beyond;
-    const S by_bent = 6.0 * grown;
-    const S along = (0.25 * (1.0 + square) - over_angle) * bent / select(square < FROM, constant<S>(FROM), square);
-    fold_slope = by_bent * (over_angle * bending + along * quarter);
+    fold_slope = (1.5 * grown * (1.0 + square)) * quarter;
 }
 
 // Deformation of a segment by its two ends.
@@ -191,9 +187,7 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
     const S angle_over = 8.0 * eighth * polynomial(ARC, S(square * eighth * eighth));  // angle over tan(angle/4)
     out.turn = angle_over * out.quarter;
     out.cotangent = 0.5 * angle_over * over * w;
-    const Lanes3<S> axis = {rod.frame.r[0].x, rod.frame.r[1].x, rod.frame.r[2].x};
-    fold_up(out.quarter, square, out.quarter - dot(axis, out.quarter) * axis, S(1.0 / angle_over), out.fold,
-            out.fold_slope);
+    fold_up(out.quarter, square, out.fold, out.fold_slope);
     const S shrink = 1.0 / secant;
     const S w_middle = (a_w - dot(a_p, out.quarter)) * shrink;
     const Lanes3<S> p_middle = shrink * (a_p + a_w * out.quarter + cross(a_p, out.quarter));
@@ -268,9 +262,8 @@ FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& ra
     }
     const Lanes33<S> inverse_rate = turning<S>(bent.turn, constant<S>(-0.5), inverse_rate_second(bent));
     Lanes33<S> folding = bent.fold * inverse_rate;
-    const Lanes3<S> grown = transposed_times(inverse_rate, bent.fold_slope);
     for (int i = 0; i < 3; ++i)
-        folding.r[i] = folding.r[i] + (i == 0 ? bent.turn.x : i == 1 ? bent.turn.y : bent.turn.z) * grown;
+        folding.r[i] = folding.r[i] + (i == 0 ? bent.turn.x : i == 1 ? bent.turn.y : bent.turn.z) * bent.fold_slope;
     Lanes33<S> turning_by = transposed_times(rod.frame, folding) * transposed(bent.first);
     turning_by.r[0] = bent.twist_slope * turning_by.r[0];
     RodChange<S> out = {strain_change(bent, transposed(bent.middle)), strain_change(bent, (seen - by_share) * rate_a),

@@ -15,13 +15,12 @@ double Model::mass() const {
 // tells its share, unless the densities of tets were made to.
 std::vector<double> Model::organ_masses() const {
     std::vector<double> masses(organs.size(), 0.0);
-    if (!exact_sections && !cage.organ_tissue.empty()) {
-        double sum = 0;
-        for (size_t o = 0; o < masses.size(); o++) {
-            masses[o] = organs[o].material.density * (1 - hole_share(organs[o])) * cage.organ_tissue[o];
-            sum += masses[o];
-        }
-        const double by = mass() / sum;
+    double drawn = 0;
+    if (!exact_sections)
+        for (size_t o = 0; o < cage.organ_tissue.size(); o++)
+            drawn += masses[o] = organs[o].material.density * (1 - hole_share(organs[o])) * cage.organ_tissue[o];
+    if (drawn > 0) {
+        const double by = mass() / drawn;
         for (double& own : masses) own *= by;
         return masses;
     }

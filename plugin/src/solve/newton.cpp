@@ -30,9 +30,9 @@ struct Newton : StageEquations {
     int most_work = 0;        // limit of report.work; 0: none
 };
 
-// Returns by how much the energy of fibres after a solve from velocities v_from differs from what it took it for [J].
-double miss_of_fibres(Newton& n, const VecX& v_from) {
-    set_positions(n, v_from);
+// Returns by how much the energy of fibres after the first solve differs from what that took it for [J].
+double miss_of_fibres(Newton& n) {
+    set_positions(n, n.w.v_start);
     const VecX from = n.w.x;
     set_positions(n, n.w.v);
     double miss = 0;
@@ -94,8 +94,8 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
 }
 
 // Goes along dv as far as the residual decreases while the potential stays below `most`, or the potential decreases
-// enough (Armijo 1966; Nocedal and Wright 2006, section 3.1). Returns the part of dv that it went, 0 if neither does.
-double search_line(Newton& n, double most, VecX& rhs, double& norm) {
+// enough (Armijo 1966; Nocedal and Wright 2006, section 3.1). Returns false if neither does.
+bool search_line(Newton& n, double most, VecX& rhs, double& norm) {
     constexpr int HALVINGS = 12;       // of a direction; a step of a 4000th is none
     constexpr double DESCENT = 1e-4;   // share of the linear decrease that is enough [-]
     constexpr double ROUNDING = 1e-6;  // relative change of a potential that is none [-]
@@ -116,9 +116,9 @@ double search_line(Newton& n, double most, VecX& rhs, double& norm) {
         std::swap(rhs, w.rhs_trial);
         norm = norm_trial;
         w.dv = part * direction;
-        return part;
+        return true;
     }
-    return 0;
+    return false;
 }
 
 // Starts the search at rest if the potential is less there. If straight motion would wind segments up, a search from
@@ -190,8 +190,7 @@ constexpr double TINY = 1e-11;
 // as it does for a plant stretched to many times its length.
 constexpr double FAR = 1;
 
-// Does further solves until the residual is small against the first one, or changes reach the resolution of double; for
-// fibres alone, until a solve does not miss them.
+// Does further solves until the residual is small against the first one, or changes reach the resolution of double.
 bool iterate(Newton& n, double first) {
     const SolveSettings& s = n.input.settings;
     Workspace& w = n.w;
@@ -202,16 +201,14 @@ bool iterate(Newton& n, double first) {
     n.report.ms_assembly += timer.lap();
     const double most = s.careful || n.is_pulled ? potential_at(n, w.v) : INFINITY;
     Tangent tangent = Tangent::exact;
-    bool has_moved = !n.skipped, meets_fibres = false;
+    bool has_moved = !n.skipped;
     for (int iteration = 1;; ++iteration) {
-        n.report.converged = norm <= s.newton_tolerance * first || change <= TINY * n.system.size || meets_fibres;
+        n.report.converged = norm <= s.newton_tolerance * first || change <= TINY * n.system.size;
         if (n.report.converged || iteration == n.iterations || is_spent(n)) return std::isfinite(norm);
         if (!find_direction(n, tangent, rhs)) return false;
         timer.lap();
         change = w.dv.cwiseAbs().maxCoeff() * n.stage.step;
-        const double part = search_line(n, most, rhs, norm);
-        const bool better = part > 0;
-        meets_fibres = n.for_fibres && part == 1 && miss_of_fibres(n, w.v - w.dv) <= n.input.loads.fibres->tolerance;
+        const bool better = search_line(n, most, rhs, norm);
         n.report.ms_assembly += timer.lap();
         // The exact stiffness may give a direction that does not descend; the positive one's does.
         if (!better && tangent == Tangent::positive) {
@@ -252,8 +249,7 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     const bool converged_before = report.converged;
     const double first = solve_first(n);
     if (first < 0) return false;
-    if (n.for_fibres && miss_of_fibres(n, workspace.v_start) > input.loads.fibres->tolerance)
-        n.iterations = ITERATIONS_FOR_FIBRES;
+    if (n.for_fibres && miss_of_fibres(n) > input.loads.fibres->tolerance) n.iterations = ITERATIONS_FOR_FIBRES;
     if (n.iterations > 1 && !iterate(n, first)) return false;
     report.converged &= converged_before;
     set_positions(n, workspace.v);

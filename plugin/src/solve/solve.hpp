@@ -36,7 +36,7 @@ struct Fibre {
     double stiffness;  // [N/m]
 };
 
-// Those of a solve. A stage of one solve that misses their energy by more than the tolerance has others.
+// Those of a solve. A stage whose one solve misses their energy by more than the tolerance is solved to convergence.
 struct FibreLoads {
     std::vector<Fibre> list;
     double tolerance;  // [J]
