@@ -37,15 +37,15 @@ struct Row {
 };
 const Row ROWS[] = {
     {"tets", "corn/corn.obj", FROND_MECHANICS_TET_COROTATIONAL, 1, 0, false, FROND_WIND_PROFILE_LOG, 6,
-     0x6649c8ed2c0d4349, 0xbf4053603275dac6},
+     0x6649c8ed2c0d4349, 0x0aaaad7bfdd8e14b},
     {"rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_POWER, 6, 0xb444ecdb181ca83b,
      0x8a945fee13058a97},
     {"neo_hookean", "wheat/wheat.obj", FROND_MECHANICS_TET_NEOHOOKEAN, 1, 0, false, FROND_WIND_PROFILE_LOG, 3,
-     0xa0ca228bf09bbdb2, 0xb8aa946dd42bb865},
+     0xa0ca228bf09bbdb2, 0xf9b998a9a3d9983f},
     {"twig", "urdf/sapling.urdf", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_LOG, 9, 0xab65759330378ed7,
      0x4f924654a5c0ddc5},
     {"ball_on_tets", "corn/corn.obj", FROND_MECHANICS_TET_COROTATIONAL, 1, 0, true, FROND_WIND_PROFILE_LOG, 0,
-     0x596211eafe89b405, 0x6e35ff4ae9b0956e},
+     0x596211eafe89b405, 0xa2618711c6a28801},
     {"ball_on_rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, true, FROND_WIND_PROFILE_LOG, 0, 0x27cc98fffe95409e,
      0x4c3d74d72111e074},
     {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0xab60a67b2e448312,

@@ -47,8 +47,6 @@ constexpr Limit LIMITS[] = {
      "it has to be iterated to convergence, which rough solves do not come to"},
     {"corn_dragged", FROND_MECHANICS_TET_COROTATIONAL, ANY,
      "a leaf that is folded over stays so until its plant rests: its cage is too soft to turn it back"},
-    {"corn_jerked", FROND_MECHANICS_TET_COROTATIONAL, ANY,
-     "a leaf that is folded over stays so until its plant rests: its cage is too soft to turn it back"},
 };
 
 }  // namespace
