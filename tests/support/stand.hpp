@@ -10,6 +10,7 @@
 
 #include "support/must.hpp"
 #include "support/referee.hpp"
+#include "support/stems.hpp"
 
 namespace frond::test {
 
@@ -33,17 +34,11 @@ struct Stand {
         must(frond_model_load(FROND_SOURCE_DIR "/models/corn/corn.obj", &def, &model));
     }
     void make_stems(const std::vector<frond_stem>& stems, double young = 1e8) {
-        frond_model_def def = frond_default_model_def();
-        frond_organ_material organ = {"stem", {}};
-        must(frond_material_preset("stem", &organ.material));
-        organ.material.young = young;
-        organ.material.damping_ratio = 0;
-        def.organs = &organ;
-        def.organ_count = 1;
-        def.scale = 1;
-        def.up = {0, 1, 0};
-        def.rest = FROND_REST_WITHOUT_GRAVITY;
-        must(frond_model_from_stems(stems.data(), int(stems.size()), &def, &model));
+        frond_material material = {};
+        must(frond_material_preset("stem", &material));
+        material.young = young;
+        material.damping_ratio = 0;
+        model = make_stems_of(stems.data(), int(stems.size()), &material, FROND_REST_WITHOUT_GRAVITY);
     }
     frond_plant_def plant_def() const { return frond_default_plant_def(); }
     frond_plant add(frond_plant_def def, const frond_vec3& place, double turn = 0) {

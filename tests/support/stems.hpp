@@ -6,11 +6,13 @@
 #include "frond/frond.h"
 
 // Makes a model of stems of one material; null takes the preset's.
-inline frond_model make_stems_of(const frond_stem* stems, int count, const frond_material* material, frond_rest rest) {
+inline frond_model make_stems_of(const frond_stem* stems, int count, const frond_material* material, frond_rest rest,
+                                 double capsule_height = 0) {
     frond_model_def def = frond_default_model_def();
     def.scale = 1;
     def.up = {0, 1, 0};
     def.rest = rest;
+    def.capsule_height = capsule_height;
     const frond_organ_material organ = {"stem", material ? *material : frond_material{}};
     if (material) {
         def.organs = &organ;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/stand.hpp"
+#include "support/stems.hpp"
 
 namespace frond::test {
 namespace chain_api_tests {
@@ -27,20 +28,13 @@ struct Cantilever : Stand {
                         frond_effects without = FROND_EFFECT_GRAVITY, const frond_vec3& end = {LENGTH, 0, 0})
         : Stand(sleepless()) {
         h = 1.0 / 60;
-        frond_model_def def = frond_default_model_def();
-        frond_organ_material organ = {"stem", {}};
-        must(frond_material_preset("stem", &organ.material));
-        organ.material.young = YOUNG;
-        organ.material.yield_strain = organ.material.twist_to_bend = 0;
-        organ.material.damping_ratio = 0.5;
-        def.organs = &organ;
-        def.organ_count = 1;
-        def.scale = 1;
-        def.up = {0, 1, 0};
-        def.rest = FROND_REST_WITHOUT_GRAVITY;
-        def.capsule_height = capsule_height;
+        frond_material material = {};
+        must(frond_material_preset("stem", &material));
+        material.young = YOUNG;
+        material.yield_strain = material.twist_to_bend = 0;
+        material.damping_ratio = 0.5;
         const frond_stem stem = {-1, {0, 0, 0}, end, RADIUS, RADIUS};
-        must(frond_model_from_stems(&stem, 1, &def, &model));
+        model = make_stems_of(&stem, 1, &material, FROND_REST_WITHOUT_GRAVITY, capsule_height);
         frond_plant_def plant_def = frond_default_plant_def();
         plant_def.mechanics = mechanics;
         plant_def.effects &= ~without;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/stand.hpp"
+#include "support/stems.hpp"
 
 namespace frond::test {
 namespace restitution_tests {
@@ -15,17 +16,11 @@ constexpr double BALL = 0.1, STEM = 0.05;
 double bounce(double of_stem, double of_ball, double h) {
     Stand stand;
     stand.h = h;
-    frond_model_def def = frond_default_model_def();
-    frond_organ_material organ = {"stem", {}};
-    must(frond_material_preset("stem", &organ.material));
-    organ.material.restitution = of_stem;
-    def.organs = &organ;
-    def.organ_count = 1;
-    def.scale = 1;
-    def.up = {0, 1, 0};
-    def.rest = FROND_REST_WITHOUT_GRAVITY;
+    frond_material material = {};
+    must(frond_material_preset("stem", &material));
+    material.restitution = of_stem;
     const frond_stem stem = {-1, {-0.5, 0, 0}, {0.5, 0, 0}, STEM, STEM};
-    must(frond_model_from_stems(&stem, 1, &def, &stand.model));
+    stand.model = make_stems_of(&stem, 1, &material, FROND_REST_WITHOUT_GRAVITY);
     frond_plant_def plant_def = stand.plant_def();
     plant_def.mechanics = FROND_MECHANICS_ROD;
     const frond_plant plant = stand.add(plant_def, {0, 0, 0});

@@ -5,28 +5,22 @@
 #include <cmath>
 
 #include "support/stand.hpp"
+#include "support/stems.hpp"
 
 namespace frond::test {
 namespace slide_tests {
 
 constexpr double RADIUS = 0.02;  // of stems [m]
 
-// Makes the model of a stem from the origin, on which bodies have their own friction; without a modulus of its own it
-// has that of the preset.
-void make_stem(Stand& stand, const frond_vec3& end, double capsule_height, double young = 0) {
-    frond_model_def def = frond_default_model_def();
-    frond_organ_material organ = {"stem", {}};
-    must(frond_material_preset("stem", &organ.material));
-    if (young > 0) organ.material.young = young;
-    organ.material.friction = 1;
-    def.organs = &organ;
-    def.organ_count = 1;
-    def.scale = 1;
-    def.up = {0, 1, 0};
-    def.rest = FROND_REST_WITHOUT_GRAVITY;
-    def.capsule_height = capsule_height;
+// Returns a stem from the origin, on which bodies have their own friction; without a modulus of its own it has that of
+// the preset.
+frond_model make_stem(const frond_vec3& end, double capsule_height, double young = 0) {
+    frond_material material = {};
+    must(frond_material_preset("stem", &material));
+    if (young > 0) material.young = young;
+    material.friction = 1;
     const frond_stem stem = {-1, {0, 0, 0}, end, RADIUS, RADIUS};
-    must(frond_model_from_stems(&stem, 1, &def, &stand.model));
+    return make_stems_of(&stem, 1, &material, FROND_REST_WITHOUT_GRAVITY, capsule_height);
 }
 
 struct Slide {
@@ -46,7 +40,7 @@ TEST_P(SlidingBlock, IsAcceleratedAsOnAnInclinedPlane) {
     // A stem that nothing bends: all of it is pinned.
     Stand stand;
     stand.h = slide.h;
-    make_stem(stand, {LENGTH * cosine, LENGTH * sine, 0}, slide.capsule_height);
+    stand.model = make_stem({LENGTH * cosine, LENGTH * sine, 0}, slide.capsule_height);
     frond_plant_def plant_def = stand.plant_def();
     plant_def.mechanics = FROND_MECHANICS_ROD;
     const frond_plant plant = stand.add(plant_def, {0, 0, 0});
@@ -116,7 +110,7 @@ TEST_P(LedBlock, RubsAsTheLawOfFrictionSays) {
     const Led& led = GetParam();
     Stand stand;
     stand.h = led.h;
-    make_stem(stand, {1, 0, 0}, 0.05, 1e9);
+    stand.model = make_stem({1, 0, 0}, 0.05, 1e9);
     frond_plant_def plant_def = stand.plant_def();
     plant_def.mechanics = led.mechanics;
     const frond_plant plant = stand.add(plant_def, {0, 0, 0});

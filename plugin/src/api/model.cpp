@@ -276,7 +276,7 @@ frond_result frond_model_get_organ(frond_model model, int organ, frond_organ* ou
         view.certainty = o.certainty;
         view.parent = m.organ_parents[size_t(organ)];
         view.material = o.material;
-        view.mass = m.organ_masses()[size_t(organ)];
+        view.mass = m.organ_mass[size_t(organ)];
         describe_sections(m, organ, view);
     });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "cage/tet_geometry.hpp"
 #include "core/assert.hpp"
@@ -135,26 +136,41 @@ static std::vector<double> weigh_sections(Model& model) {
     return organs;
 }
 
+// Shares the plant's mass among its organs by what is drawn of each: a tet is of one organ, so that what a small one
+// weighs would count with what it grows on.
+static void share_by_drawing(Model& model) {
+    const double mass = std::accumulate(model.organ_mass.begin(), model.organ_mass.end(), 0.0);
+    std::vector<double> drawn = model.cage.organ_tissue;
+    for (size_t o = 0; o < drawn.size(); o++)
+        drawn[o] *= model.organs[o].material.density * (1 - hole_share(model.organs[o]));
+    const double sum = std::accumulate(drawn.begin(), drawn.end(), 0.0);
+    if (!(sum > 0)) return;
+    for (size_t o = 0; o < drawn.size(); o++) model.organ_mass[o] = drawn[o] * mass / sum;
+}
+
 void give_mass(Model& model) {
     const Cage& cage = model.cage;
     FROND_ASSERT(model.sections.size() == model.chain.nodes.size());
     FROND_ASSERT(cage.tet_organ.size() == cage.tets.size() && cage.tet_fill.size() == cage.tets.size());
     model.tet_density.resize(cage.tets.size());
-    std::vector<double> organs(model.organs.size(), 0.0);
+    model.organ_mass.assign(model.organs.size(), 0.0);
     for (size_t e = 0; e < cage.tets.size(); e++) {
         const Organ& organ = model.organs[size_t(cage.tet_organ[e])];
         model.tet_density[e] = organ.material.density * cage.tet_fill[e] * (1 - hole_share(organ));
-        organs[size_t(cage.tet_organ[e])] += model.tet_density[e] * tet_volume(cage.nodes, cage.tets[e]);
+        model.organ_mass[size_t(cage.tet_organ[e])] += model.tet_density[e] * tet_volume(cage.nodes, cage.tets[e]);
     }
     if (!model.exact_sections) {
+        share_by_drawing(model);
         model.chain_mass = model.has_own_tets ? spread_over_capsules(model) : weigh(model, hang_tets(model)).mass;
         return;
     }
     const std::vector<double> exact = weigh_sections(model);
     for (size_t e = 0; e < cage.tets.size(); e++) {
         const size_t organ = size_t(cage.tet_organ[e]);
-        if (exact[organ] > 0) model.tet_density[e] *= exact[organ] / organs[organ];
+        if (exact[organ] > 0) model.tet_density[e] *= exact[organ] / model.organ_mass[organ];
     }
+    for (size_t o = 0; o < exact.size(); o++)
+        if (exact[o] > 0) model.organ_mass[o] = exact[o];
 }
 
 }  // namespace frond

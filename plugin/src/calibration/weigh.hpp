@@ -21,8 +21,8 @@ Weights weigh(const Model& model, const std::vector<int>& hangs);
 // longer than capsules. Those of a lattice hold tissue anywhere; their vertices tell where (hang_tets).
 std::vector<double> spread_over_capsules(const Model& model);
 
-// Sets tet_density from the materials and how full the tets are, and chain_mass. Where the sections are known exactly
-// (stems) organs weigh what these say.
+// Sets tet_density from the materials and how full the tets are, chain_mass and organ_mass. Where the sections are
+// known exactly (stems) organs weigh what these say.
 void give_mass(Model& model);
 
 }  // namespace frond

@@ -45,10 +45,10 @@ std::string roll_pitch_yaw(const Quat& q) {
     return numbers({roll, pitch, yaw});
 }
 
-// Returns what each organ weighs in the plant over the mass of its sections [-]: what its tets do, or its sections if
-// it has none, and all together what the plant does.
+// Returns what each organ weighs in the plant over the mass of its sections [-]: what is drawn of it does, or its
+// sections if that is nothing, and all together what the plant does.
 std::vector<double> mass_factors(const Model& model) {
-    std::vector<double> weights = model.organ_masses(), of_sections(weights.size(), 0.0);
+    std::vector<double> weights = model.organ_mass, of_sections(weights.size(), 0.0);
     for (size_t i = 0; i < model.sections.size(); i++)
         if (model.chain.nodes[i].parent >= 0)
             of_sections[size_t(std::max(model.chain.nodes[i].organ, 0))] +=

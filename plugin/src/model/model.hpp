@@ -45,6 +45,7 @@ struct Model {
     bool exact_sections = false;    // sections are given, not measured on the surface
     StemSource stem_source;
     std::vector<double> chain_mass;     // part of the plant's mass at each chain node [kg]
+    std::vector<double> organ_mass;     // part of it that each organ is [kg]
     std::vector<double> organ_stiffer;  // factor by which each organ is stiffer than its material so that it stands [-]
     bool calibrated = false;            // tet_young is fitted, for order 1 only; else it is the material's
     bool stands_as_modelled = false;    // under GRAVITY; else the modelled shape is the rest shape
@@ -64,7 +65,6 @@ struct Model {
     double ms_import = 0, ms_cage = 0, ms_chain = 0, ms_total = 0;
 
     double mass() const;                                   // [kg]
-    std::vector<double> organ_masses() const;              // of each organ, mass() together [kg]
     const std::vector<double>& young_of(int order) const;  // moduli of the tets, as elements of an order [Pa]
 };
 

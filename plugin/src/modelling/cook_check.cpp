@@ -205,6 +205,8 @@ void check_cage(const Model& model) {
     need_indices(cage.tet_organ, model.organs.size(), "a tet is of no organ");
     need_positive(cage.tet_fill, "a tet is empty");
     need(cage.organ_tissue.empty() || cage.organ_tissue.size() == model.organs.size(), "an organ has no volume");
+    need(model.organ_mass.size() == model.organs.size(), "an organ has no mass");
+    for (double mass : model.organ_mass) need(is_in(mass, 0, LARGEST_NUMBER), "an organ's mass is out of range");
     for (double tissue : cage.organ_tissue) need(is_in(tissue, 0, LARGEST_NUMBER), "an organ's volume is out of range");
     need_positive(model.tet_density, "a tet's density is out of range");
     need_positive(model.tet_young, "a tet's modulus is out of range");

@@ -88,13 +88,13 @@ static void visit(Archive& a, StemSource& source) {
 // Capsules, parents of organs and the view of the chain follow from the chain; what it took to build the model is of no
 // use to one that is loaded.
 void visit(Archive& a, Model& model) {
-    auto& [surface, topology, organs, chain, chain_view, sections, exact_sections, stem_source, chain_mass,
+    auto& [surface, topology, organs, chain, chain_view, sections, exact_sections, stem_source, chain_mass, organ_mass,
            organ_stiffer, calibrated, stands_as_modelled, capsules, organ_parents, cage, has_own_tets, embedding,
            chain_embedding, tet_density, tet_young, tet_poisson, root, rest_shapes, stiffening_factor, cage_report,
            ms_import, ms_cage, ms_chain, ms_total] = model;
-    a(surface, topology, organs, chain, sections, exact_sections, stem_source, chain_mass, organ_stiffer, calibrated,
-      stands_as_modelled, cage, has_own_tets, embedding, chain_embedding, tet_density, tet_young, tet_poisson, root,
-      *rest_shapes, stiffening_factor, cage_report);
+    a(surface, topology, organs, chain, sections, exact_sections, stem_source, chain_mass, organ_mass, organ_stiffer,
+      calibrated, stands_as_modelled, cage, has_own_tets, embedding, chain_embedding, tet_density, tet_young,
+      tet_poisson, root, *rest_shapes, stiffening_factor, cage_report);
 }
 
 }  // namespace frond

@@ -159,10 +159,16 @@ static void for_each_fibre(const Plant& plant, const Use& use) {
     for_each_tie(plant, use);
 }
 
+// Returns the energy of all fibres that does not matter [J].
+static double no_matter(const Plant& plant) {
+    constexpr double SHARE = 1e-5;  // of what lifts the plant by its size [-]
+    return SHARE * lifting_energy(plant);
+}
+
 std::unique_ptr<FibreLoads> fibres_of(const Plant& plant) {
     if (!plant.fibres || !plant.step.has_fibres) return nullptr;
     auto fibres = std::make_unique<FibreLoads>();
-    fibres->tolerance = no_matter_of_fibres(plant);
+    fibres->tolerance = no_matter(plant);
     for_each_fibre(plant, [&](const Fibre& fibre) { fibres->list.push_back(fibre); });
     return fibres;
 }
@@ -172,14 +178,14 @@ void look_at_fibres(Plant& plant) {
 }
 
 void let_fibres_give(Plant& plant, double h) {
-    constexpr double RATE = 0.02;       // [1/s]
-    constexpr double NO_MATTER = 1e-6;  // energy of a fibre over that which lifts the plant by its size [-]
+    constexpr double RATE = 0.02;   // [1/s]
+    constexpr double SHARE = 1e-6;  // energy of a fibre that matters over that which lifts the plant by its size [-]
     const bool gives = plant.state.is_entangled;
     std::vector<double>& give = plant.state.fibre_give;
     if (!plant.fibres || (!gives && give.empty())) return;
     const std::vector<Fibre>& list = plant.fibres->list;
     give.resize(list.size(), 1);
-    const double no_matter = NO_MATTER * lifting_energy(plant);
+    const double most = SHARE * lifting_energy(plant);
     for (size_t i = 0; i < give.size(); i++) {
         const double now = drawn(list[i], plant.state.motion.x);
         if (gives || now < give[i]) {
@@ -189,7 +195,7 @@ void let_fibres_give(Plant& plant, double h) {
         Fibre shorter = list[i];
         const double less = std::max(1.0, give[i] - RATE * h);
         shorter.length *= less;
-        if (fibre_energy(shorter, plant.state.motion.x) <= no_matter) give[i] = less;
+        if (fibre_energy(shorter, plant.state.motion.x) <= most) give[i] = less;
     }
     if (std::all_of(give.begin(), give.end(), [](double own) { return own == 1; })) give.clear();
 }
@@ -201,13 +207,15 @@ double fibre_energy(const Plant& plant, const VecX& x) {
     return energy;
 }
 
-double newly_stretched(const Plant& plant, const VecX& before, const VecX& x) {
+bool fibre_becomes_taut(const Plant& plant) {
+    if (!(plant.state.stretched > 0)) return false;
+    const double none = no_matter(plant);
+    if (double(plant.state.stretched) <= none) return false;
     double energy = 0;
-    if (plant.fibres && plant.step.has_fibres)
-        for_each_fibre(plant, [&](const Fibre& fibre) {
-            if (drawn(fibre, before) <= 1) energy += fibre_energy(fibre, x);
-        });
-    return energy;
+    for_each_fibre(plant, [&](const Fibre& fibre) {
+        if (drawn(fibre, plant.step.x_good) <= 1) energy += fibre_energy(fibre, plant.state.motion.x);
+    });
+    return energy > none;
 }
 
 void add_fibre_forces(const Plant& plant, const VecX& x, VecX& f) {

@@ -33,14 +33,14 @@ Attachment pulled_at_vertex(const Plant& plant, int vertex);
 std::unique_ptr<FibreLoads> fibres_of(const Plant& plant);
 // Looks what fibres store now.
 void look_at_fibres(Plant& plant);
+// Returns whether a fibre is taut after a solve that was slack before it, by energy that matters.
+bool fibre_becomes_taut(const Plant& plant);
 // Lets fibres of an entangled plant lengthen, as crossed leaves come apart only by being stretched, and shorten
 // afterwards: at once where they are slack, else slowly and as far as that stores no energy that matters; after a step
 // of h [s].
 void let_fibres_give(Plant& plant, double h);
 // Returns their energy [J], and adds their forces [N]; none if the plant's steps have no fibres.
 double fibre_energy(const Plant& plant, const VecX& x);
-// Returns the energy at x of those that were slack before [J].
-double newly_stretched(const Plant& plant, const VecX& before, const VecX& x);
 void add_fibre_forces(const Plant& plant, const VecX& x, VecX& f);
 
 }  // namespace frond

@@ -41,10 +41,6 @@ bool may_inflate(const Plant& plant);
 // stages, of which one need not damp what another strained, it may inflate the plant, or its substeps were too long: in
 // the last of them a node may become much faster and hardly go anywhere.
 bool keeps_course(Plant& plant, double h);
-// Returns the energy of fibres that does not matter [J].
-double no_matter_of_fibres(const Plant& plant);
-// Returns whether a fibre is taut after a solve that was slack before it.
-bool fibre_becomes_taut(const Plant& plant);
 // Returns whether no node ran away, and none left its course with energy that nothing can have given. A pressed plant
 // springs far in a solve without contacts, and its energy is meaningless there.
 bool is_plausible(Plant& plant, double h);

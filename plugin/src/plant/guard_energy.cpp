@@ -94,16 +94,6 @@ bool keeps_course(Plant& plant, double h) {
     return !(is_asked && has_energy_from_nowhere(plant, allowed, h)) && !has_run_away(plant);
 }
 
-double no_matter_of_fibres(const Plant& plant) {
-    return CONVERGED.lift * lifting_energy(plant);
-}
-
-bool fibre_becomes_taut(const Plant& plant) {
-    const double none = no_matter_of_fibres(plant);
-    return double(plant.state.stretched) > none &&
-           newly_stretched(plant, plant.step.x_good, plant.state.motion.x) > none;
-}
-
 bool is_plausible(Plant& plant, double h) {
     if (plant.step.push || !plant.state.is_touched) return keeps_course(plant, h);
     plant.step.is_off_course = ends_off_course(plant, h);

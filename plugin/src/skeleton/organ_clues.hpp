@@ -25,8 +25,8 @@ bool names_many(const std::string& name);
 // Returns the kind of each part, or an empty text; node names take precedence over material names.
 std::vector<std::string> kinds_by_name(const Surface& surface);
 constexpr double CROWN_HEIGHT = 0.4;  // lower plants that are not named bushes have no crown [m]
-// Returns for each triangle whether it belongs to foliage that is drawn as one solid: held up by something else or,
-// with `on_ground`, also standing on the ground.
+// Returns for each triangle whether it belongs to foliage that is drawn as one solid: held up by something else in a
+// plant of CROWN_HEIGHT or more or, with `on_ground`, also standing on the ground, in one of any height.
 std::vector<char> find_crowns(const Surface& surface, const Topology& topology, bool on_ground);
 
 // Makes parts named branches blades if they are cards beside real branches; `sheets` says which triangles are of

@@ -10,6 +10,7 @@
 // and the positive one leads beyond the bound, a line search takes over.
 // What springs pull taut from afar swings as fast in any step: it takes the exact stiffness too, and a line search
 // takes over wherever the solve leads beyond the bound.
+// Where the one solve misses the energy of taut fibres, which turned far or became taut or slack, others follow.
 #include <algorithm>
 #include <cmath>
 
@@ -39,8 +40,6 @@ double miss_of_fibres(Newton& n) {
     for_each_fibre(n.input.loads, [&](const Fibre& fibre) { miss += error_of_linearization(fibre, from, n.w.x); });
     return miss;
 }
-
-constexpr int ITERATIONS_FOR_FIBRES = 10;  // solves granted to a stage whose first one misses them
 
 // Approximate cost of a factor, in evaluations of the forces.
 constexpr int WORK_OF_FACTOR = 4;
@@ -249,7 +248,8 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     const bool converged_before = report.converged;
     const double first = solve_first(n);
     if (first < 0) return false;
-    if (n.for_fibres && miss_of_fibres(n) > input.loads.fibres->tolerance) n.iterations = ITERATIONS_FOR_FIBRES;
+    constexpr int FOR_FIBRES = 10;  // solves granted to a stage whose first one misses them
+    if (n.for_fibres && miss_of_fibres(n) > input.loads.fibres->tolerance) n.iterations = FOR_FIBRES;
     if (n.iterations > 1 && !iterate(n, first)) return false;
     report.converged &= converged_before;
     set_positions(n, workspace.v);

@@ -51,6 +51,7 @@ double fibre_energy(const Fibre& fibre, const VecX& x) {
     return over > 0 ? 0.5 * fibre.stiffness * over * over : 0;
 }
 
+// Returns the derivative of a taut fibre's pull by the way from its begin to its end [N/m].
 static Mat3 stiffness_between_ends(const Fibre& fibre, const Vec3& way) {
     const double length = way.norm(), over = length - fibre.length;
     const Vec3 along = way / length;
