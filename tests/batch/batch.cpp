@@ -197,7 +197,8 @@ TEST(PlantBatch, AreBlownByAFieldOfTheHostAsAlone) {
         for (size_t i = 0; i < together.plants.size(); i++) expect_same(*together.plants[i], *apart.plants[i]);
         if (HasFatalFailure()) FAIL() << "step " << step;
     }
-    EXPECT_GT(together.batched, 5 * 50);
+    const int in_batch = most_in_batch() < 5 ? 4 : 5;  // of five plants in four lanes one is left over
+    EXPECT_GT(together.batched, in_batch * 50);
 }
 
 // Returns a straight stem, as soft as can stand.

@@ -1,7 +1,9 @@
 // Forces of the host: their momentum is what they give, however long they act and whatever integrates.
 #include <gtest/gtest.h>
 
+#include "mechanics/rotation.hpp"
 #include "plant/plant.hpp"
+#include "solve/integrator.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"
 
@@ -64,6 +66,46 @@ TEST_P(EveryPush, GivesItsMomentum) {
                 EXPECT_LT((momentum(*plant) - given).norm(), 0.01 * given.norm())
                     << count << " steps after " << before << ", " << i + 1 << " steps later";
             }
+        }
+}
+
+// A push that is found after the solve, as contacts' are, turns the nodes as one that was known before. The system is
+// linear, so both are the same; but nodes that pass half a turn change their rotation vectors.
+TEST(PushOfRods, AfterTheSolveIsThatWithin) {
+    constexpr double SPIN = 20;  // [rad/s]
+    const auto plant = free_stem(FROND_MECHANICS_ROD, FROND_INTEGRATOR_IMPLICIT_EULER);
+    const int nodes = elements_of(*plant->system).node_count;
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0.6, 0, 0.8), Vec3(0.36, 0.48, 0.8)})
+        for (double angle = 0.1; angle < 3.2; angle += 0.1) {
+            Motion motion = plant->state.motion;
+            const Mat3 turn = rotation_of<double>(angle * axis);
+            for (int i = 0; i < nodes; i += 2) {
+                point(motion.x, i) = turn * point(motion.x, i);
+                point(motion.v, i) = (SPIN * axis).cross(point(motion.x, i));
+                point(motion.x, i + 1) = angle * axis;
+                point(motion.v, i + 1) = SPIN * axis;
+            }
+            motion.history.valid = false;
+            SolveSettings settings = plant->input.settings;
+            settings.is_touched = true;
+            const auto workspace = make_workspace(plant->system);
+            VecX impulse = VecX::Zero(motion.x.size()), dv;
+            point(impulse, nodes - 2) = 1e-3 * axis.unitOrthogonal();
+
+            Motion within = motion;
+            Loads loads;
+            loads.force = impulse / H;
+            ASSERT_TRUE(solve_step(*workspace, settings, loads, H, within).ok);
+            loads.force.setZero();
+            ASSERT_TRUE(solve_step(*workspace, settings, loads, H, motion).ok);
+            const VecX v = motion.v;
+            ASSERT_TRUE(respond(*workspace, settings, impulse, dv));
+            add_response(*workspace, dv, motion);
+            EXPECT_GT((motion.v - v).norm(), 1e-3);
+            unwind(motion);
+            unwind(within);
+            EXPECT_LT((motion.x - within.x).norm(), 1e-9) << angle << " about " << axis.transpose();
+            EXPECT_LT((motion.v - within.v).norm(), 1e-7) << angle << " about " << axis.transpose();
         }
 }
 

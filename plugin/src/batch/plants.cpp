@@ -214,7 +214,6 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
         history.pinned = motion.pinned;
     }
     history.h = h;
-    if (is_wound) unwind(motion);
     plant.view.lead = 0;
     plant.step.is_sound = true;
     plant.step.settings = settings;

@@ -327,6 +327,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     let_fibres_give(plant, h);
     if (is_pushed(plant) || plant.trouble & (FROND_TROUBLE_RETRIED | FROND_TROUBLE_REWOUND)) look_at_fibres(plant);
     carry_stumps(plant);
+    if (plant.follow) unwind(motion);
     pass_time(plant.state.blend_out, h);
     moved(plant);
     return_workspace(plant);

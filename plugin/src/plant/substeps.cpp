@@ -17,13 +17,14 @@ namespace {
 // Returns half of the largest prediction error of a free node [m]; keeps the trend for the next substep.
 double local_error(Plant& plant, const VecX& x, const VecX& v, double h) {
     const Motion& motion = plant.state.motion;
-    const bool known = plant.state.trend.v_end.size() == v.size() && plant.state.trend.v_end == v;
+    const Trend& trend = plant.state.trend;
+    const auto is_known = [&](int i) { return trend.v_end.size() == v.size() && point(trend.v_end, i) == point(v, i); };
     const int next = plant.follow ? 2 : 1;
     double most = 0;
     for (int i = 0; i < x.size() / 3; i += next) {
         if (motion.pinned[size_t(i)]) continue;
         Vec3 miss = point(motion.x, i) - point(x, i) - h * point(v, i);
-        if (known) miss -= 0.5 * h * h * point(plant.state.trend.rate, i);
+        if (is_known(i)) miss -= 0.5 * h * h * point(trend.rate, i);
         most = std::max(most, miss.squaredNorm());
     }
     plant.state.trend.rate = (motion.v - v) / h;
@@ -46,13 +47,14 @@ SolveReport solve_with_fibres(Plant& plant, double h) {
 // Solves all substeps, pinned nodes moving evenly; `error` is the sum of theirs.
 SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
     Motion& motion = plant.state.motion;
-    const VecX from = motion.x, target = motion.pin_target;
+    const VecX target = motion.pin_target;
     SolveReport sum;
     sum.ok = true;
     error = 0;
     for (int i = 1; i <= count && sum.ok; i++) {
-        motion.pin_target = i < count ? VecX(from + (target - from) * (double(i) / count)) : target;
         const VecX x = motion.x, v = motion.v;
+        const VecX end = plant.follow ? wound_as(x, target) : target;
+        motion.pin_target = i < count ? VecX(x + (end - x) / (count + 1 - i)) : end;
         plant.report = solve_with_fibres(plant, h / count);
         const SolveReport& one = plant.report;
         error += local_error(plant, x, v, h / count);

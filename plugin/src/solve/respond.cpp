@@ -47,11 +47,10 @@ void retract_step(Workspace& workspace, Motion& motion) {
     Workspace& w = workspace;
     if (w.retract_from.size() == 0) return;
     for (const Guide& guide : w.guides) point(motion.x, guide.node) = guided(guide, point(motion.x, guide.node));
-    const VecX end = wound_as(w.retract_from, motion.x);
-    w.system->row->retract(*w.elements, w.retract_from, end, w.held, w.retracted);
+    w.system->row->retract(*w.elements, w.retract_from, motion.x, w.held, w.retracted);
     // Of pairs of nodes only the positions change; velocities keep what the responses gave them, for contacts bound
     // those.
-    for (int i = 0; i < end.size() / 3; i += 2) point(motion.x, i) += point(w.retracted, i) - point(end, i);
+    for (int i = 0; i < motion.x.size() / 3; i += 2) point(motion.x, i) = point(w.retracted, i);
     w.retract_from.resize(0);
 }
 

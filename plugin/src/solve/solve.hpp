@@ -170,8 +170,8 @@ void add_correction(const Workspace& workspace, const VecX& dv, Motion& motion);
 bool make_compliance(Workspace& workspace, const SolveSettings& settings, const std::vector<NodeBlock>& pushes,
                      NodeCompliance& compliance);
 
-// Replaces rotation vectors beyond half a turn by those of the same rotation the other way round, in the motion and its
-// history, and converts their rates.
+// Replaces rotation vectors beyond half a turn by those of the same rotation the other way round, in the motion, its
+// pins and its history, and converts their rates. Between steps alone: see unwind.cpp.
 void unwind(Motion& motion);
 // Does the inverse: returns the rotation vector of the same rotation as `to` that is nearest to `from`; likewise those
 // of all nodes that rotate.

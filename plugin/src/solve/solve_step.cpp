@@ -166,6 +166,7 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     FROND_ASSERT(workspace.elements->node_count == workspace.system->elements->node_count);
     FROND_ASSERT(workspace.A.pattern == &workspace.system->elements->pattern);
     if (!input_is_sound(*workspace.system, input)) return report;
+    if (workspace.system->row->moves_chain) unwind(motion);
     const Integrator& method = integrator(settings.integrator);
     const bool goes_on = method.looks_back && history_holds(motion, settings.integrator, h);
     if (!goes_on && !(are_finite(motion.x) && are_finite(motion.v))) return report;  // after a step they are
@@ -179,7 +180,6 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     keep_history(workspace, input, keeps, motion);
     motion.x = workspace.x;
     motion.v = workspace.v;
-    if (workspace.system->row->moves_chain) unwind(motion);
     FROND_ASSERT(are_finite(motion.x) && are_finite(motion.v));
     FROND_ASSERT(motion.x.size() == 3 * workspace.system->elements->node_count);
     report.ok = true;

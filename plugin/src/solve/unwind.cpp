@@ -1,5 +1,6 @@
 // In: the motion of nodes that rotate. Out: the same motion, no rotation vector longer than half a turn: beyond that it
-// changes too fast with the rotation, and at a whole turn its rate is undefined.
+// changes too fast with the rotation, and at a whole turn its rate is undefined. This is done between steps, never
+// within one: its matrix and the responses by that are in the rotation vectors of its start.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -28,6 +29,9 @@ void unwind(Motion& motion) {
         const double angle = point(motion.x, node).norm();
         if (angle <= PI || !std::isfinite(angle)) continue;
         turn_back(motion.x, node, {&motion.v});
+        if (!motion.pinned.empty() && motion.pinned[size_t(node)])
+            point(motion.pin_target, node) =
+                wound_as(Vec3(point(motion.x, node)), Vec3(point(motion.pin_target, node)));
         if (!history.valid) continue;
         // The past goes along, though it was within half a turn: differences from it are velocities. Where that does
         // not bring it near, as if its axis was another one, the history of all nodes is dropped.
@@ -38,8 +42,6 @@ void unwind(Motion& motion) {
         }
         if (history.x_end.size() == 0) continue;
         turn_back(history.x_end, node, {&history.v_end, &history.x_rate, &history.v_rate});
-        point(history.x_end, node) = point(motion.x, node);
-        point(history.v_end, node) = point(motion.v, node);
     }
 }
 
