@@ -18,15 +18,15 @@ namespace {
 
 // What a plant was moved by.
 struct Correction {
-    VecX way;  // of its nodes [m]; empty: none
+    VecX from, way;  // of its nodes [m]; empty: none
     double share = 1;
 };
 using Corrections = std::vector<Correction>;  // by the plants' numbers
 
-// Goes another share of a correction's way. Returns whether that is any other.
+// Goes another share of a correction's way, back to the last bit. Returns whether that is any other.
 bool go_share(Plant& plant, Correction& correction, double share) {
     if (correction.way.size() == 0 || correction.share == share) return false;
-    plant.state.motion.x += (share - correction.share) * correction.way;
+    plant.state.motion.x = correction.from + share * correction.way;
     correction.share = share;
     return true;
 }
@@ -48,8 +48,10 @@ void part(const World& world, const ContactIsland& island, double h, std::vector
         }
     for (const PlantBody* body : island.plants) {
         const VecX& sum = sums[size_t(body->place)];
-        corrections[size_t(body->number)] =
-            sum.size() > 0 ? Correction{correct_position(*body->plant, sum, h)} : Correction();
+        Correction& correction = corrections[size_t(body->number)] = {};
+        if (sum.size() == 0) continue;
+        correction.from = body->plant->state.motion.x;
+        correction.way = correct_position(*body->plant, sum, h);
     }
 }
 

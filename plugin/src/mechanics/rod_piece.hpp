@@ -156,16 +156,16 @@ struct RodBow {
     S give_thin, give_wide;  // 1 / firm^2 is 1 plus these times squares of curvatures [m^2]
 };
 
-// An arc of the angle a is a^2 / 24 longer than its chord, here bounded by a half. Tension straightens it: a clamped
-// beam that is so bowed yields by a^2 L^3 / (720 EI), in series with L / EA.
+// An arc of the angle a is a^2 / 24 + 7 a^4 / 5760 longer than its chord, here bounded by 0.54. Tension straightens it:
+// a clamped beam that is so bowed yields by a^2 L^3 / (720 EI), in series with L / EA.
 template <class S>
 FROND_INLINE RodBow<S> bow_of(const RodPiece<S>& rod, const Lanes3<S>& curvature) {
     const S area = rod.length * rod.length, give = (1.0 / 720) * area * area * rod.stretch.x;
     const S square = area * (curvature.y * curvature.y + curvature.z * curvature.z);
-    const S bound = 1.0 / (1.0 + (1.0 / 144) * square * square), root = (1.0 / 24) * sqrt(bound);
+    const S over = 1.0 / sqrt(576.0 + square * (4.0 * square - 33.6));
     RodBow<S> bow;
-    bow.longer = square * root;
-    bow.longer_slope = root * bound;
+    bow.longer = square * over;
+    bow.longer_slope = (576.0 - 16.8 * square) * over * over * over;
     bow.give_thin = give / rod.bend.y;
     bow.give_wide = give / rod.bend.z;
     bow.firm = 1.0 / sqrt(1.0 + bow.give_thin * curvature.y * curvature.y + bow.give_wide * curvature.z * curvature.z);
