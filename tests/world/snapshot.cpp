@@ -250,6 +250,36 @@ TEST(Snapshot, GoesBackWithWhatBrokeOff) {
     EXPECT_EQ(garden.restore(bytes), FROND_RESULT_BAD_ARGUMENT);
 }
 
+// A plant that is broken may have gone over to any mechanics, or away to where it sways as modes, by itself.
+TEST(Snapshot, GoesBackToTheMechanicsOfWhatIsBroken) {
+    for (int which = 0; which < FROND_MECHANICS_COUNT; which++)
+        for (const int pause : {0, 5}) {
+            Garden garden(FROND_MECHANICS_COUNT);
+            frond_plant plant = garden.plants[size_t(which)];
+            garden.run(5);
+            ASSERT_EQ(frond_plant_break(plant, frond_plant_get_capsule_count(plant) - 2), FROND_OK)
+                << frond_last_error();
+            garden.run(pause);
+            const std::vector<char> bytes = garden.save();
+            const std::vector<uint64_t> first = garden.run(20);
+            for (int other = 0; other < FROND_MECHANICS_COUNT; other++) {
+                ASSERT_EQ(frond_plant_set_mechanics(plant, frond_mechanics(other)), FROND_OK) << frond_last_error();
+                garden.run(4);
+                ASSERT_EQ(garden.restore(bytes), FROND_OK) << frond_last_error();
+                EXPECT_EQ(garden.run(20), first) << which << " to " << other;
+            }
+            ASSERT_EQ(frond_world_set_viewer(garden.world, {0, 1, 400}), FROND_OK);
+            garden.run(10);
+            const std::vector<char> afar = garden.save();
+            const std::vector<uint64_t> second = garden.run(20);
+            ASSERT_EQ(frond_world_set_viewer(garden.world, {0, 1, 1}), FROND_OK);
+            garden.run(5);
+            ASSERT_EQ(frond_world_set_viewer(garden.world, {0, 1, 400}), FROND_OK);
+            ASSERT_EQ(garden.restore(afar), FROND_OK) << frond_last_error();
+            EXPECT_EQ(garden.run(20), second) << which << " from afar";
+        }
+}
+
 TEST(Snapshot, MakesWholeWhatBrokeSince) {
     Garden garden(3);
     garden.run(5);

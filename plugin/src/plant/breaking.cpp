@@ -149,10 +149,19 @@ int find_break(const Plant& plant) {
     return find_overload(mechanics(plant.which, plant.nodes->order), elements_of(plant), plant.state.motion.x);
 }
 
-// Takes the elements of all fragments out of the plant's system.
-static void take_away(Plant& plant) {
+static std::vector<uint8_t> gone_of(const Plant& plant) {
     std::vector<uint8_t> gone;
     for (int fragment : plant.state.parting->of_chain) gone.push_back(fragment >= 0);
+    return gone;
+}
+
+std::shared_ptr<const System> without_fragments(const Plant& plant, const System& system) {
+    return system_without(system, gone_of(plant));
+}
+
+// Takes the elements of all fragments out of the plant's system.
+static void take_away(Plant& plant) {
+    const std::vector<uint8_t> gone = gone_of(plant);
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     std::unique_ptr<Elements> own = plant.state.own_elements ? row.without(*plant.state.own_elements, gone) : nullptr;
     plant.system = system_without(*plant.system, gone);

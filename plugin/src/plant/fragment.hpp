@@ -10,6 +10,7 @@ namespace frond {
 
 struct Follow;
 struct Plant;
+struct System;
 
 // Present motion of its rigid body, and its present place: a point p of the model's frame is at turn p + shift in the
 // world.
@@ -52,6 +53,8 @@ int find_break(const Plant& plant);
 // Takes off the part beyond a capsule, given by the chain node at its end, which is not gone yet. Returns the new
 // fragment.
 const Fragment& break_off(Plant& plant, int node);
+// Returns a system of the plant's model, in whatever mechanics, without the elements of its fragments.
+std::shared_ptr<const System> without_fragments(const Plant& plant, const System& system);
 // Takes all fragments away again after the mechanics changed.
 void leave_fragments(Plant& plant);
 // Moves chain nodes that are gone with the stump, so that cage nodes on both sides keep their places against it.

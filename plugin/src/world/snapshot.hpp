@@ -43,6 +43,7 @@ struct SavedPlant {
     HostForces forces;
     std::vector<Vec3> grab_targets;
     std::vector<SavedFragment> fragments;
+    VecX parted_at;  // Parting::start of a plant with fragments
     // State of its PlantBody.
     int16_t new_for;
     bool asleep;

@@ -106,7 +106,7 @@ static void visit(Archive& a, SavedPlant& plant) {
     a(input.pinned), a(input.pin_target), a(input.anchor), a(plant.supports);
     a(input.pins_changed), a(input.pins_are_own), a(input.has_user_force), a(state.is_touched), a(state.is_entangled);
     a(plant.forces.on_nodes), a(plant.forces.on_chain), a(state.substeps), a(state.recovers_for), a(plant.grab_targets),
-        a(plant.fragments);
+        a(plant.fragments), a(plant.parted_at);
     a(plant.new_for), a(plant.asleep), a(plant.still), a(plant.places), a(plant.air);
     visit_level(a, plant.level);
     a(plant.grown_in);

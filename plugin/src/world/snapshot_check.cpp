@@ -68,8 +68,8 @@ struct Becomes {
 };
 Becomes becomes(const Plant& plant, const SavedPlant& saved) {
     const bool stays = saved.which == plant.which && saved.fragments.empty() == plant.state.fragments.empty();
-    const auto system =
-        stays ? plant.system : make_system(plant.model, saved.which, plant.input.mass, plant.nodes->order);
+    auto system = stays ? plant.system : make_system(plant.model, saved.which, plant.input.mass, plant.nodes->order);
+    if (!stays && !saved.fragments.empty()) system = without_fragments(plant, *system);
     return {system, &mechanics(saved.which, plant.nodes->order), 3 * Eigen::Index(elements_of(*system).node_count)};
 }
 
@@ -175,9 +175,6 @@ void check_fragments(const SavedPlant& saved, const PlantBody& body) {
         check_numbers(m.turn.reshaped(), "fragments");
         for (const Vec3& v : {m.shift, m.centre, m.velocity, m.angular_velocity}) check_numbers(v, "fragments");
     }
-    if (saved.which != plant.which || !saved.modal.empty())
-        fail(FROND_RESULT_BAD_ARGUMENT,
-             "plant %d is broken and had other mechanics; call frond_plant_set_mechanics first", body.index);
 }
 
 void check_plastic(const SavedPlant& saved, const Becomes& becomes) {
@@ -216,6 +213,8 @@ void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_c
     check_count(saved.grab_targets.size(), plant.input.grabs.size(), "grabs on a plant");
     check_fragments(saved, body);
     const Becomes become = becomes(plant, saved);
+    check_size(saved.parted_at, become.numbers, "fragments", true);
+    if (saved.parted_at.size() == 0 && !saved.fragments.empty()) damaged("fragments");
     check_motion(saved, become);
     check_plastic(saved, become);
     check_pins(saved, plant);

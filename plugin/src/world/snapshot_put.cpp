@@ -60,6 +60,7 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     if (plant.input.has_user_force) forces_of(plant) = std::move(saved.forces);
     size_t i = 0;
     for (Grab& grab : plant.input.grabs) grab.target = saved.grab_targets[i++];
+    if (!saved.fragments.empty()) plant.state.parting->start = std::move(saved.parted_at);
     for (size_t k = 0; k < saved.fragments.size(); k++)
         static_cast<FragmentMotion&>(plant.state.fragments[k]) = saved.fragments[k].motion;
     body.new_for = saved.new_for;

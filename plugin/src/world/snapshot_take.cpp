@@ -53,6 +53,7 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     if (plant.input.forces) saved.forces = *plant.input.forces;
     for (const Grab& grab : plant.input.grabs) saved.grab_targets.push_back(grab.target);
     for (const Fragment& f : plant.state.fragments) saved.fragments.push_back({f.node, f});
+    if (!plant.state.fragments.empty()) saved.parted_at = plant.state.parting->start;
 
     saved.new_for = body.new_for;
     saved.asleep = body.rest.asleep;
