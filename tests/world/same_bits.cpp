@@ -48,8 +48,8 @@ const Row ROWS[] = {
      0x596211eafe89b405, 0xa2618711c6a28801},
     {"ball_on_rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, true, FROND_WIND_PROFILE_LOG, 0, 0x27cc98fffe95409e,
      0x4c3d74d72111e074},
-    {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0xab60a67b2e448312,
-     0x67cafed572e4a920},
+    {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0x42fb33376990d964,
+     0x1fb4a871468fbdcb},
     {"field", "wheat/wheat.obj", FROND_MECHANICS_ROD, 9, 1.5, false, FROND_WIND_PROFILE_UNIFORM, 4, 0x7920f3d0cf22a4cd,
      0xd89fc2d4602468f5},
 };
