@@ -139,13 +139,11 @@ void put_back_if_passed(const Search& search, const std::vector<PlantBody*>& pla
         if (!(search.world.effects & body->plant->input.effects & FROND_EFFECT_TWO_WAY)) continue;
         PlantMotion still;
         still.ways.assign(body->plant->view.chain_positions.size(), Vec3::Zero());
-        double passed_at = 1;
         find_hits(*body, still, rigid, past, [&](const Hit& hit) {
             const double passed = -(1 - hit.impact.time) * hit.impact.normal.dot(hit.shape.way);
-            // A body that was there when the step began has not come through: along its stem others are met.
-            if (passed > PASSED || hit.impact.time == 0) passed_at = std::min(passed_at, hit.impact.time);
+            // A body that was there when the step began has not come through.
+            if (passed > PASSED && hit.impact.time > 0) met = std::min(met, hit.impact.time);
         });
-        if (passed_at > 0) met = std::min(met, passed_at);
     }
     if (met == 1) return;
     rigid.proceedToTransform(moved(past.from, past.way, past.turn, met));
