@@ -26,8 +26,8 @@ void unwind(Motion& motion) {
     constexpr double NEAR = PI / 2;  // what a history may look back over [rad]
     History& history = motion.history;
     for (int node = 1; node < motion.x.size() / 3; node += 2) {
-        const double angle = point(motion.x, node).norm();
-        if (angle <= PI || !std::isfinite(angle)) continue;
+        const double square = point(motion.x, node).squaredNorm();
+        if (!(square > PI * PI) || !std::isfinite(square)) continue;
         turn_back(motion.x, node, {&motion.v});
         if (!motion.pinned.empty() && motion.pinned[size_t(node)])
             point(motion.pin_target, node) =
