@@ -83,11 +83,11 @@ Model stem_model(double yield_strain, double creep = 0) {
     return model;
 }
 
-// Returns the stem bent to an arc of the given curvature [1/m], its segments as long as at rest.
+// Returns the stem bent to an arc of the given curvature [1/m], as long as at rest.
 VecX arc(const Elements& elements, double curvature) {
     VecX x = elements.modelled;
     for (int i = 0; i < elements.node_count; i += 2) {
-        const double turn = elements.modelled[3 * i + 1] * curvature, r = 0.025 / std::sin(0.025 * curvature);
+        const double turn = elements.modelled[3 * i + 1] * curvature, r = 1 / curvature;
         point(x, i) = Vec3(r * (1 - std::cos(turn)), r * std::sin(turn), 0);
         point(x, i + 1) = Vec3(0, 0, -turn);
     }

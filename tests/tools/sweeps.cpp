@@ -43,6 +43,24 @@ TEST(Sweeps, BallsPassThroughNoStemsAtAnySpeed) {
     expect_none_passes({Meeting::BALL}, {5, 10, 20}, 1.0 / 30);
 }
 
+// What holds at round speeds holds beside them: where in a step things meet, and how they swing back, is chance.
+TEST(Sweeps, PassNothingAtNeighbouringSpeedsEither) {
+    constexpr int MOST = 20;
+    constexpr double BESIDE = 0.004;  // from one to the next
+    const Sweep sweeps[] = {{Meeting::ITSELF, FROND_MECHANICS_ROD, 1, 1.0 / 30},
+                            {Meeting::STEM, FROND_MECHANICS_ROD, 1, 1.0 / 30},
+                            {Meeting::BALL, FROND_MECHANICS_ROD, 10, 1.0 / 30},
+                            {Meeting::BALL, FROND_MECHANICS_ROD, 20, 1.0 / 30}};
+    for (Sweep sweep : sweeps) {
+        const double middle = sweep.speed;
+        for (int k = -MOST; k <= MOST; k++) {
+            sweep.speed = middle * (1 + BESIDE * k);
+            const Verdict verdict = run_sweep(sweep);
+            EXPECT_EQ(verdict.color, Color::GREEN) << told(sweep) << ": " << verdict.text;
+        }
+    }
+}
+
 // What gets past a kinematic body does not do so in silence.
 TEST(Sweeps, WhatIsLeftBehindSaysSo) {
     for (const Meeting meeting : {Meeting::WALL, Meeting::WIRE, Meeting::PLATE})

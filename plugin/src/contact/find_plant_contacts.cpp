@@ -126,7 +126,6 @@ void keep_deepest(World& world, std::vector<PlantContact>& contacts) {
 // Contacts of one island, and the time of the search [ms].
 struct Found {
     std::vector<PlantContact> contacts;
-    std::vector<uint8_t> near;  // one per plant of the island
     double ms_broad = 0, ms_hash = 0, ms_narrow = 0;
 };
 
@@ -241,7 +240,6 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
     result.ms_broad += timer.lap();
     StripContacts strips = find_strip_contacts(paths, memory.pairs, last);
     result.contacts = std::move(strips.contacts);
-    result.near = std::move(strips.near);
     memory.island = island;
     memory.crossed = strips.crossed;
     memory.normals = std::move(strips.normals);
@@ -325,9 +323,9 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     run_jobs(world, islands.size(),
              [&](size_t i) { found[i] = search_island(world, islands[i], known[i], h, *world.plant_searches[i]); });
     world.plant_island_count = islands.size();
-    for (size_t i = 0; i < islands.size(); i++)
-        for (size_t k = 0; k < islands[i].size(); k++)
-            islands[i][k]->plant->step.is_watched = found[i].near[k] && !islands[i][k]->rest.asleep;
+    // Any of them may go elsewhere than its speed says.
+    for (const std::vector<PlantBody*>& island : islands)
+        for (PlantBody* body : island) body->plant->step.is_watched = !body->rest.asleep;
     for (Found& of : found) {
         keep_deepest(world, of.contacts);
         contacts.insert(contacts.end(), of.contacts.begin(), of.contacts.end());

@@ -101,9 +101,8 @@ void take_over_impulses(const std::vector<const PlantContact*>& last, std::vecto
 
 StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std::vector<StripPair>& pairs,
                                   const std::vector<const PlantContact*>& last) {
-    constexpr double MARGIN = 0.001, NEAR = 0.003, CROSSED = 1e-6;  // [m]
+    constexpr double MARGIN = 0.001, CROSSED = 1e-6;  // [m]
     StripContacts result;
-    result.near.assign(paths.size(), 0);
     result.normals.assign(pairs.size(), Vec3::Zero());
     std::vector<OrganPair> organs;  // of each contact
     for (size_t i = 0; i < pairs.size(); i++) {
@@ -112,8 +111,7 @@ StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
-        if (stay_apart(core_a, a_after, core_b, b_after, thick + NEAR + a.astray + b.astray)) continue;
-        result.near[size_t(pair.a)] = result.near[size_t(pair.b)] = 1;
+        if (stay_apart(core_a, a_after, core_b, b_after, thick + MARGIN)) continue;
         const StripGap now = gap_between(core_a, core_b);
         if (now.distance < CROSSED) {
             result.crossed.push_back(organs_of(paths, pair));

@@ -32,7 +32,6 @@ OrganPair organs_of(const std::vector<StripPath>& paths, const StripPair& pair);
 struct StripContacts {
     std::vector<PlantContact> contacts;
     std::vector<OrganPair> crossed;  // sorted
-    std::vector<uint8_t> near;       // one per plant: something may come near it
     std::vector<Vec3> normals;       // one per pair, of its gap before the step; zero: not known
 };
 // `last`: contacts of the last substep, whose impulses begin the next search for them.

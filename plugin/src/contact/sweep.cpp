@@ -81,6 +81,7 @@ MovingShape moving_piece(const PlantBody& body, const PlantMotion& motion, int c
         plant.rotation * (plant.view.chain_positions[size_t(end)] - plant.view.chain_positions[size_t(begin)]);
     piece.way = 0.5 * (first + second);
     if (axis.squaredNorm() > 0) piece.turn = axis.cross(second - first) / axis.squaredNorm();
+    if (motion.is_past) piece.from = moved(piece.from, -piece.way, -piece.turn, 1);
     return piece;
 }
 

@@ -22,6 +22,7 @@ double far_for(const btCollisionObject& object);
 struct PlantMotion {
     std::vector<Vec3> ways;
     double farthest = 0;
+    bool is_past = false;  // they lead to where the plant is, not on from there
 };
 // Returns them as they are if nothing touches the plant.
 PlantMotion motion_of(const PlantBody& body, double h);

@@ -129,24 +129,29 @@ std::vector<PlantBody*> plants_near(Search& search, const btCollisionObject& obj
     return plants;
 }
 
-// Puts a free body back to where it met a plant that it has passed since, as Bullet's own continuous detection does.
-// That happens to new bodies, and to those that something else turned aside.
-void put_back_if_passed(const Search& search, const std::vector<PlantBody*>& plants, btRigidBody& rigid,
+// Puts a free body back to where it met a plant that it has passed since, as Bullet's own continuous detection does,
+// and on from there as the plant went. That happens to new bodies, and to those that something else turned aside.
+void put_back_if_passed(Search& search, const std::vector<PlantBody*>& plants, btRigidBody& rigid,
                         const ObjectMotion& past) {
     constexpr double PASSED = 0.005;  // depth from which a body is put back [m]
     double met = 1;
+    Vec3 carried = Vec3::Zero();  // from there [m]
     for (PlantBody* body : plants) {
         if (!(search.world.effects & body->plant->input.effects & FROND_EFFECT_TWO_WAY)) continue;
-        PlantMotion still;
-        still.ways.assign(body->plant->view.chain_positions.size(), Vec3::Zero());
-        find_hits(*body, still, rigid, past, [&](const Hit& hit) {
-            const double passed = -(1 - hit.impact.time) * hit.impact.normal.dot(hit.shape.way);
+        PlantMotion motion = motion_in(search, *body);
+        motion.is_past = true;
+        find_hits(*body, motion, rigid, past, [&](const Hit& hit) {
             // A body that was there when the step began has not come through.
-            if (passed > PASSED && hit.impact.time > 0) met = std::min(met, hit.impact.time);
+            if (depth_after(hit) < PASSED || hit.impact.time == 0 || hit.impact.time > met) return;
+            met = hit.impact.time;
+            const btVector3 on_piece = hit.piece.at(met).inverse() * to_bullet(hit.impact.on_b);
+            carried = from_bullet(hit.piece.at(1) * on_piece) - hit.impact.on_b;
         });
     }
     if (met == 1) return;
-    rigid.proceedToTransform(moved(past.from, past.way, past.turn, met));
+    btTransform place = moved(past.from, past.way, past.turn, met);
+    place.setOrigin(place.getOrigin() + to_bullet(carried));
+    rigid.proceedToTransform(place);
     search.world.bullet->updateSingleAabb(&rigid);
 }
 

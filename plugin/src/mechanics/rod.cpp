@@ -1,14 +1,14 @@
 // In: rods at rest and their nodes' positions and rotations. Out: energy, force and stiffness.
 //
 // Geometrically exact rods (Simo 1985; Simo, Vu-Quoc 1986) with two nodes and one integration point a segment:
-//   c = F^T R^T (x2 - x1) / L,  strain G = (|c|, tilt of c from the axis),  k = F^T log(R1'^T R2') / L,
+//   c = F^T R^T (x2 - x1) / L,  strain G = (s(|c|, k), tilt of c from the axis),  k = F^T log(R1'^T R2') / L,
 //   U = L/2 (G - G0) . C (G - G0) + L/2 (m(k) - k0) . B (m(k) - k0),
 // F the segment's frame in the modelled shape, R1' = R1 exp(L F kp / 2) and R2' = R2 exp(-L F kp / 2) the rotations of
-// its ends without the plastic curvature kp, R = R1' exp(log(R1'^T R2') / 2) the midway rotation, m the measures of
-// bending and twist (rod_piece.hpp). So a segment that is bent for good is strained by what it turns from there, and is
-// far from half a turn, where the vector of a rotation jumps. The shear stiffness is the residual bending flexibility,
-// 12 EI / L^2 (MacNeal 1978): for small rotations the segment then is the Euler-Bernoulli beam with cubic shape
-// functions, exact at its ends.
+// its ends without the plastic curvature kp, R = R1' exp(log(R1'^T R2') / 2) the midway rotation, s the stretch of the
+// arc that it is bent to, m the measures of bending and twist (rod_piece.hpp). So a segment that is bent for good is
+// strained by what it turns from there, and is far from half a turn, where the vector of a rotation jumps. The shear
+// stiffness is the residual bending flexibility, 12 EI / L^2 (MacNeal 1978): for small rotations the segment then is
+// the Euler-Bernoulli beam with cubic shape functions, exact at its ends.
 #include <algorithm>
 
 #include "mechanics/dual.hpp"

@@ -85,19 +85,21 @@ FROND_INLINE void fold_up(const Lanes3<S>& quarter, const S& square, S& fold, La
 // Deformation of a segment by its two ends.
 template <class S>
 struct RodBent {
-    Lanes3<S> chord;              // [m]
-    Lanes33<S> first;             // rotation of the first end, half of the plastic one added
-    Lanes3<S> turn;               // rotation vector of the second end relative to the first, without the plastic one
-    Lanes3<S> quarter;            // its axis times tan(angle/4)
-    S cotangent;                  // angle/2 cot(angle/2)
-    S fold;                       // curvature is by fold * turn
-    Lanes3<S> fold_slope;         // derivative of fold by turn
-    Lanes33<S> middle;            // the frame at the midway rotation
-    Lanes3<S> strain, curvature;  // relative to rest
-    Lanes3<S> along;              // direction of the chord in the frame `middle`
-    S twist_slope;                // derivative of the measure of twist by twist
-    S tilt_thin, tilt_wide;       // of the chord from the midway frame
-    S tilt_scale;                 // derivative of tilt by the chord's component across, for a straight chord
+    Lanes3<S> chord;               // [m]
+    Lanes33<S> first;              // rotation of the first end, half of the plastic one added
+    Lanes3<S> turn;                // rotation vector of the second end relative to the first, without the plastic one
+    Lanes3<S> quarter;             // its axis times tan(angle/4)
+    S cotangent;                   // angle/2 cot(angle/2)
+    S fold;                        // curvature is by fold * turn
+    Lanes3<S> fold_slope;          // derivative of fold by turn
+    Lanes33<S> middle;             // the frame at the midway rotation
+    Lanes3<S> strain, curvature;   // relative to rest
+    Lanes3<S> along;               // direction of the chord in the frame `middle`
+    S twist_slope;                 // derivative of the measure of twist by twist
+    S tilt_thin, tilt_wide;        // of the chord from the midway frame
+    S tilt_scale;                  // derivative of tilt by the chord's component across, for a straight chord
+    S stretch_scale;               // derivative of the strain along by the chord's length
+    S stretch_thin, stretch_wide;  // and by the curvature [m]
 };
 
 // Sets the strain by the chord in the frame `middle`, over the length at rest. Stretch is the ratio of lengths and tilt
@@ -123,16 +125,17 @@ FROND_INLINE Lanes3<S> chord_of_strain(const Lanes3<S>& strain) {
 // Returns the derivative of the strain by the chord, as above, times a matrix.
 template <class S>
 FROND_INLINE Lanes33<S> strain_change(const RodBent<S>& bent, const Lanes33<S>& m) {
-    const Lanes3<S> stretch = transposed_times(m, bent.along);
-    const Lanes3<S> turned = (0.5 * bent.tilt_scale) * (stretch + m.r[0]);
-    return {{stretch, bent.tilt_scale * m.r[1] - bent.tilt_thin * turned,
+    const Lanes3<S> longer = transposed_times(m, bent.along);
+    const Lanes3<S> turned = (0.5 * bent.tilt_scale) * (longer + m.r[0]);
+    return {{bent.stretch_scale * longer, bent.tilt_scale * m.r[1] - bent.tilt_thin * turned,
              bent.tilt_scale * m.r[2] - bent.tilt_wide * turned}};
 }
 // Returns its transposed times a vector.
 template <class S>
 FROND_INLINE Lanes3<S> strain_change_transposed(const RodBent<S>& bent, const Lanes3<S>& f) {
     const S turned = 0.5 * bent.tilt_scale * (bent.tilt_thin * f.y + bent.tilt_wide * f.z);
-    return (f.x - turned) * bent.along + Lanes3<S>{-turned, bent.tilt_scale * f.y, bent.tilt_scale * f.z};
+    return (bent.stretch_scale * f.x - turned) * bent.along +
+           Lanes3<S>{-turned, bent.tilt_scale * f.y, bent.tilt_scale * f.z};
 }
 
 // A tapered segment bends as if most of its bending were at its elastic centre, so that its chord follows the farther
@@ -144,9 +147,82 @@ FROND_INLINE Lanes3<S> tilt_at_centre(const RodPiece<S>& rod, const Lanes3<S>& s
     const S by = way * rod.centre;
     return {strain.x, strain.y + by * curvature.z, strain.z - by * curvature.y};
 }
+
+// The arc that a bent segment is.
+template <class S>
+struct RodBow {
+    S longer, longer_slope;  // by what it is longer than its chord, over that, and the derivative by its angle's square
+    S firm;                  // root of its stiffness over EA, where it is stretched little
+    S give_thin, give_wide;  // 1 / firm^2 is 1 plus these times squares of curvatures [m^2]
+};
+
+// An arc of the angle a is a^2 / 24 + 7 a^4 / 5760 longer than its chord, here bounded by 0.54. Tension straightens it:
+// a clamped beam that is so bowed yields by a^2 L^3 / (720 EI), in series with L / EA.
+template <class S>
+FROND_INLINE RodBow<S> bow_of(const RodPiece<S>& rod, const Lanes3<S>& curvature) {
+    const S area = rod.length * rod.length, give = (1.0 / 720) * area * area * rod.stretch.x;
+    const S square = area * (curvature.y * curvature.y + curvature.z * curvature.z);
+    const S over = 1.0 / sqrt(576.0 + square * (4.0 * square - 33.6));
+    RodBow<S> bow;
+    bow.longer = square * over;
+    bow.longer_slope = (576.0 - 16.8 * square) * over * over * over;
+    bow.give_thin = give / rod.bend.y;
+    bow.give_wide = give / rod.bend.z;
+    bow.firm = 1.0 / sqrt(1.0 + bow.give_thin * curvature.y * curvature.y + bow.give_wide * curvature.z * curvature.z);
+    return bow;
+}
+
+// The strain along, so that half of EA times its square is the energy, by how much longer an arc is than at rest; and
+// its derivatives by that and by the bow's length and firmness. It yields by no more than it is longer than its chord.
+template <class S>
+struct ArcStrain {
+    S strain, slope, by_longer, by_firm;
+};
+template <class S>
+FROND_INLINE ArcStrain<S> arc_strain(const RodBow<S>& bow, const S& beyond) {
+    constexpr double NONE = 1e-24;  // square of a strain that is none
+    const S over = 1.0 / sqrt(beyond * beyond + bow.longer * bow.longer + NONE), loose = 1.0 - bow.firm;
+    const S straight = bow.longer * over, stretched = beyond * over;
+    return {beyond * (1.0 - loose * straight), 1.0 - loose * straight * straight * straight,
+            -loose * stretched * stretched * stretched, beyond * straight};
+}
+// Does the inverse. The strain is convex, so Newton's method converges from above.
+template <class S>
+FROND_INLINE S stretch_of_arc(const RodBow<S>& bow, const S& strain) {
+    constexpr int ITERATIONS = 4;
+    const S most = strain * (1.0 / bow.firm - 1.0), sign = select(strain < 0.0, constant<S>(-1), constant<S>(1));
+    S beyond = strain + select(sign * most < bow.longer, most, S(sign * bow.longer));
+    for (int i = 0; i < ITERATIONS; ++i) {
+        const ArcStrain<S> at = arc_strain(bow, beyond);
+        beyond = beyond - (at.strain - strain) / at.slope;
+    }
+    return beyond;
+}
+
+// Takes the strain along, which is the chord's, to that of the arc.
+template <class S>
+FROND_INLINE void measure_arc(const RodPiece<S>& rod, const Lanes3<S>& curvature, RodBent<S>& out) {
+    const RodBow<S> bow = bow_of(rod, curvature);
+    const ArcStrain<S> arc = arc_strain(bow, S(out.strain.x * (1.0 + bow.longer) - rod.rest_strain.x));
+    const S by_bend = 2.0 * rod.length * rod.length * bow.longer_slope * (arc.slope * out.strain.x + arc.by_longer);
+    const S by_give = arc.by_firm * bow.firm * bow.firm * bow.firm;
+    out.stretch_scale = arc.slope * (1.0 + bow.longer);
+    out.stretch_thin = (by_bend - by_give * bow.give_thin) * curvature.y;
+    out.stretch_wide = (by_bend - by_give * bow.give_wide) * curvature.z;
+    out.strain.x = rod.rest_strain.x + arc.strain;
+}
+// Takes such a strain back to the chord's.
+template <class S>
+FROND_INLINE Lanes3<S> chord_strain(const RodPiece<S>& rod, const Lanes3<S>& strain, const Lanes3<S>& curvature) {
+    const RodBow<S> bow = bow_of(rod, curvature);
+    const S beyond = stretch_of_arc(bow, S(strain.x - rod.rest_strain.x));
+    return {(rod.rest_strain.x + beyond) / (1.0 + bow.longer), strain.y, strain.z};
+}
+
 // Adds the curvature's part, as above, to the derivative of the strain by an end.
 template <class S>
-FROND_INLINE void add_tilt_at_centre(const RodPiece<S>& rod, const Lanes33<S>& bend, Lanes33<S>& strain) {
+FROND_INLINE void add_bend(const RodPiece<S>& rod, const RodBent<S>& bent, const Lanes33<S>& bend, Lanes33<S>& strain) {
+    strain.r[0] = strain.r[0] + bent.stretch_thin * bend.r[1] + bent.stretch_wide * bend.r[2];
     strain.r[1] = strain.r[1] + rod.centre * bend.r[2];
     strain.r[2] = strain.r[2] - rod.centre * bend.r[1];
 }
@@ -195,7 +271,9 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
     const S per_length = 1.0 / rod.length;
     measure_chord(per_length * transposed_times(out.middle, out.chord), out);
     out.curvature = per_length * transposed_times(rod.frame, out.fold * out.turn);
-    out.strain = tilt_at_centre(rod, out.strain, out.curvature + rod.set_curvature, constant<S>(1)) - rod.rest_strain;
+    const Lanes3<S> whole = out.curvature + rod.set_curvature;
+    measure_arc(rod, whole, out);
+    out.strain = tilt_at_centre(rod, out.strain, whole, constant<S>(1)) - rod.rest_strain;
     measure_twist(rod, out);
     out.curvature = out.curvature - rod.rest_curvature;
     return out;
@@ -227,7 +305,8 @@ FROND_INLINE RodGradient<S> gradient_of(const RodPiece<S>& rod, const Lanes33<S>
     const Lanes3<S> force = bent.middle * strain_change_transposed(bent, pull);
     const Lanes3<S> middle_moment = cross(force, bent.chord);
     Lanes3<S> moment = scaled(rod.bend, bent.curvature);
-    moment = {bent.twist_slope * moment.x, moment.y - rod.centre * pull.z, moment.z + rod.centre * pull.y};
+    moment = {bent.twist_slope * moment.x, moment.y - rod.centre * pull.z + bent.stretch_thin * pull.x,
+              moment.z + rod.centre * pull.y + bent.stretch_wide * pull.x};
     const Lanes3<S> by_fold = rod.frame * moment;
     const Lanes3<S> couple = bent.fold * by_fold + dot(bent.turn, by_fold) * bent.fold_slope;
     const Lanes3<S> turned = cross(bent.turn, couple);
@@ -268,8 +347,8 @@ FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& ra
     turning_by.r[0] = bent.twist_slope * turning_by.r[0];
     RodChange<S> out = {strain_change(bent, transposed(bent.middle)), strain_change(bent, (seen - by_share) * rate_a),
                         strain_change(bent, by_share * rate_b), turning_by * rate_a, turning_by * rate_b};
-    add_tilt_at_centre(rod, -out.bend_a, out.strain_a);
-    add_tilt_at_centre(rod, out.bend_b, out.strain_b);
+    add_bend(rod, bent, -out.bend_a, out.strain_a);
+    add_bend(rod, bent, out.bend_b, out.strain_b);
     return out;
 }
 

@@ -27,8 +27,9 @@ FROND_INLINE Lanes3<S> chord_after(const Pieces& pieces, const double* from, con
                                look.by_b * (after.b.turn - pieces.point(from, &RodSegment::b, 3));
     const Lanes3<S> strain = look.strain + per_length * (by_chord + by_turns);
     const Lanes3<S> curvature = after.bent.curvature + piece.rest_curvature + piece.set_curvature;
-    return piece.length *
-           (after.bent.middle * chord_of_strain(tilt_at_centre(piece, strain, curvature, constant<S>(-1))));
+    const Lanes3<S> of_chord =
+        tilt_at_centre(piece, chord_strain(piece, strain, curvature), curvature, constant<S>(-1));
+    return piece.length * (after.bent.middle * chord_of_strain(of_chord));
 }
 
 // A component of the tree that nothing holds keeps the centre of mass that the solve gave it.

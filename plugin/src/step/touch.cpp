@@ -113,9 +113,10 @@ void mark_touched(World& world) {
     }
     if (response_row(world.response).find) mark_pushed(world);
     for (const SweptBody& swept : world.swept)
-        for (PlantBody* body : swept.plants) body->plant->step.is_watched |= !body->rest.asleep;
+        for (PlantBody* body : swept.plants)
+            if (!body->rest.asleep) body->plant->step.is_watched = body->level.is_due = true;
     for (PlantBody* body : world.awake)
-        if (waits(*body->plant) || body->plant->input.has_user_force) body->level.is_due = true;
+        if (body->plant->state.is_touched || body->plant->input.has_user_force) body->level.is_due = true;
 }
 
 }  // namespace FROND_BULLET_PRECISION
