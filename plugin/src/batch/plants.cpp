@@ -60,21 +60,24 @@ struct LookAtWays {
     const Batch& step;
     double size, h;  // size of the plants [m], length of the step [s]
     bool turns;      // every other node is a rotation vector
-    unsigned &far_away, &off_course;
+    unsigned &far_away, &off_course, &whips;
     template <class S>
     FROND_INLINE void run() const {
         const double far = squared(OFF_COURSE * size) * NEARLY;
         const double turned = TURNED_OFF_COURSE * TURNED_OFF_COURSE * NEARLY;
-        S near = constant<S>(1), on_course = near;
+        S near = constant<S>(1), on_course = near, calm = near;
         for (int i = 0; i < step.system->elements->node_count; i++) {
             const Lanes3<S> way = load3<S>(step.x_end.data(), 3 * i) - load3<S>(step.x.data(), 3 * i);
             const Lanes3<S> off = way - constant<S>(h) * load3<S>(step.v.data(), 3 * i);
             const bool is_turn = turns && i % 2;
             on_course = select(dot(off, off) < (is_turn ? turned : far), on_course, S{});
-            if (!is_turn) near = select(dot(way, way) < squared(FARTHEST_WAY * size) * NEARLY, near, S{});
+            if (is_turn) continue;
+            near = select(dot(way, way) < squared(FARTHEST_WAY * size) * NEARLY, near, S{});
+            calm = select(dot(way, way) < squared(WHIPS) * NEARLY, calm, S{});
         }
         far_away = bits_of(near == 0.0);
         off_course = bits_of(on_course == 0.0);
+        whips = bits_of(calm == 0.0);
     }
 };
 
@@ -241,11 +244,11 @@ void go_on_alone(Plant& plant, const Batch& step, int lane, frond_effects effect
     finish_solving(plant);
 }
 
-// Returns the lanes whose plants wait for those of others, a bit each.
-unsigned find_waiting(Plant* const* plants, int count) {
-    unsigned waiting = 0;
-    for (int lane = 0; lane < count; lane++) waiting |= unsigned(waits(*plants[lane])) << lane;
-    return waiting;
+// Returns the lanes whose plants are such, a bit each.
+unsigned find_lanes(Plant* const* plants, int count, bool (*is_such)(const Plant&)) {
+    unsigned lanes = 0;
+    for (int lane = 0; lane < count; lane++) lanes |= unsigned(is_such(*plants[lane])) << lane;
+    return lanes;
 }
 
 // Does solve_batch() for plants whose prediction holds, in that many lanes.
@@ -262,13 +265,15 @@ void solve_in_lanes(Plant* const* plants, int count, int lanes, const Surroundin
     const double ms_air = timer.lap();
 
     const double h_before = plants[0]->step.looks_back ? plants[0]->state.motion.history.h : 0;
-    unsigned alone = step_batch(step, settings, plants[0]->state.motion.pinned, h, h_before), far_away, off_course;
+    unsigned alone = step_batch(step, settings, plants[0]->state.motion.pinned, h, h_before), far_away, off_course,
+             whips;
     run_in_lanes(step.lanes,
-                 LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course});
-    alone |= far_away | find_taut(step, *plants[0], effects);
+                 LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course, whips});
+    whips &= find_lanes(plants, count, [](const Plant& plant) { return plant.step.is_among_bodies && !waits(plant); });
+    alone |= far_away | whips | find_taut(step, *plants[0], effects);
     air_forces(step, space->forces);
     const unsigned may_yield = find_yielding(step, effects);
-    const unsigned going_on = find_waiting(plants, count);
+    const unsigned going_on = find_lanes(plants, count, waits);
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
     run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
     take_factors(step, plants, going_on & ~alone & ((1u << count) - 1));

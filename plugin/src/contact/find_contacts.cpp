@@ -280,6 +280,7 @@ std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& las
     }
     const std::vector<Sweeper> others = look_at_objects(world, h, contacts);
     add_swept_contacts(world, others, last, h, contacts);
+    find_plants_among_bodies(world);
     discount_grown_in(contacts);
     drop_what_draws_out(contacts);
     drop_what_is_inside(contacts);

@@ -20,6 +20,11 @@ struct Sweeper {
 void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const std::vector<Contact>& last, double h,
                         std::vector<Contact>& contacts);
 
+// Finds, by Bullet's broad phase, the plants that such bodies may be in the way of though they are not swept.
+void find_plants_among_bodies(World& world);
+// Adds those that solved plants then whipped through, or beside, to what is swept.
+void sweep_what_whipped(World& world, double h);
+
 // Drops contacts by which a static or kinematic body pushes a held stem along its own axis: they would only stretch the
 // stem, or compress it where it passes through the body and is held beyond. Contacts farther up the stem go with them.
 void drop_what_draws_out(std::vector<Contact>& contacts);

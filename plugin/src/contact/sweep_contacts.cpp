@@ -235,6 +235,40 @@ bool add_hit(World& world, PlantBody& body, const SweptBody& swept, const Hit& h
     return add(contact, contacts);
 }
 
+// Calls `take` for the pairs of Bullet's broad phase of plants that are awake, and bodies that push them.
+static void for_each_near(World& world, const std::function<void(PlantBody&, btCollisionObject&)>& take) {
+    const btBroadphasePairArray& pairs = world.bullet->getPairCache()->getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); i++) {
+        auto* first = static_cast<btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject);
+        auto* second = static_cast<btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
+        PlantBody* body = PlantBody::of(first);
+        btCollisionObject& object = body ? *second : *first;
+        if (!body) body = PlantBody::of(second);
+        if (!takes_part(world, body) || body->rest.asleep || body->plant->state.modal || PlantBody::of(&object))
+            continue;
+        if (pushes(object) && !is_plane(object) && may_collide(*body, object)) take(*body, object);
+    }
+}
+
+void find_plants_among_bodies(World& world) {
+    for (PlantBody* body : world.awake) body->plant->step.is_among_bodies = false;
+    for_each_near(world, [](PlantBody& body, btCollisionObject&) { body.plant->step.is_among_bodies = true; });
+}
+
+void sweep_what_whipped(World& world, double h) {
+    for_each_near(world, [&](PlantBody& body, btCollisionObject& object) {
+        if (!has_step(body) || !whips_among_bodies(*body.plant)) return;
+        const auto is_of_it = [&](const SweptBody& swept) { return swept.object == &object; };
+        const auto known = std::find_if(world.swept.begin(), world.swept.end(), is_of_it);
+        if (known == world.swept.end())
+            world.swept.push_back({&object,
+                                   object.isKinematicObject() ? backwards(motion_of(object, h)) : motion_of(object, h),
+                                   {&body}});
+        else if (std::find(known->plants.begin(), known->plants.end(), &body) == known->plants.end())
+            known->plants.push_back(&body);
+    });
+}
+
 void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const std::vector<Contact>& last, double h,
                         std::vector<Contact>& contacts) {
     if (bodies.empty()) return;

@@ -99,6 +99,10 @@ double farthest_way(const Plant& plant) {
     return farthest(plant, plant.state.motion.x, plant.step.x_good);
 }
 
+bool whips_among_bodies(const Plant& plant) {
+    return plant.step.is_among_bodies && plant.step.x_good.size() > 0 && farthest_way(plant) > WHIPS;
+}
+
 bool ends_off_course(const Plant& plant, double h) {
     if (h > TRUSTED) return true;
     const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good, &v_good = plant.step.v_good;

@@ -157,6 +157,7 @@ struct PlantStep {
     std::unique_ptr<ContactPush> push;  // null until contacts are known
     std::unique_ptr<LoadWork> work;     // of an accepted step; null: nobody keeps account
     bool is_watched = false;            // near something that it may go through
+    bool is_among_bodies = false;       // something that it is not swept against may be in its way
     bool is_pressed = false;            // in contact with something that may move
     bool is_sound = true;               // the solution can be the next state
     bool is_off_course = false;         // something ended the step off course
@@ -237,6 +238,10 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects);
 inline bool waits(const Plant& plant) {
     return plant.state.is_touched || plant.step.is_watched;
 }
+// How far a node goes in a step that its speed before need not foretell [m].
+constexpr double WHIPS = 0.01;
+// Returns whether a solved plant went that far among bodies that it was not swept against.
+bool whips_among_bodies(const Plant& plant);
 // Returns the push of a step's contacts, which are known from then on.
 ContactPush& push_of(Plant& plant);
 // Returns whether contacts push the plant in its step.

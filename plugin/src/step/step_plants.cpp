@@ -58,6 +58,7 @@ void step_alone(const World& world, PlantBody& body, const Surroundings& surroun
         return;
     }
     solve_plant(*body.plant, surroundings, body.level.pending);
+    body.plant->step.is_watched |= whips_among_bodies(*body.plant);
     if (!waits(*body.plant)) finish(world, body, surroundings);
 }
 
@@ -73,6 +74,7 @@ void run_job(const World& world, const StepJob& job, const Surroundings& surroun
     std::array<Plant*, MOST_LANES> plants;
     for (int i = 0; i < job.count; i++) plants[size_t(i)] = job.bodies[size_t(i)]->plant.get();
     solve_batch(plants.data(), job.count, surroundings, job.bodies[0]->level.pending);
+    for (int i = 0; i < job.count; i++) plants[size_t(i)]->step.is_watched |= whips_among_bodies(*plants[size_t(i)]);
     std::array<PlantBody*, MOST_LANES> done;
     const auto end = std::copy_if(job.bodies.begin(), job.bodies.begin() + job.count, done.begin(),
                                   [](const PlantBody* body) { return !waits(*body->plant); });

@@ -74,6 +74,7 @@ void carry_what_came_off(World& world, double h) {
 void handle_contacts(World& world, double h) {
     const Timer timer;
     let_go_of_gone(world);
+    sweep_what_whipped(world, h);
     frond_report& report = world.report;
     const bool any_watched = std::any_of(world.awake.begin(), world.awake.end(),
                                          [](const PlantBody* body) { return body->plant->step.is_watched; });
