@@ -191,6 +191,28 @@ TEST_P(LedgerOf, VelocitiesThatAreSetAreTheCallers) {
 }
 
 // Plants that go alike are stepped together, but not under a ledger.
+// A plant that falls and is reset was lifted by the caller, also where it sleeps from then on.
+TEST(Ledger, AResetIsTheCallers) {
+    for (const int asleep : {0, 1}) {
+        frond_plant_def def = def_with(FROND_MECHANICS_TET_COROTATIONAL);
+        def.root_height = -1;
+        def.starts_asleep = asleep;
+        Accounts accounts(def);
+        ASSERT_EQ(frond_plant_wake(accounts.small.plant), FROND_OK);
+        accounts.step(30);
+        const Ledger fallen = accounts.now();
+        ASSERT_LT(fallen.now.gravity, -1) << asleep;
+        frond_wind_def wind = frond_default_wind_def();
+        wind.velocity.x = 5;  // wakes it in the step
+        ASSERT_EQ(frond_world_set_wind(accounts.small.world, &wind), FROND_OK);
+        ASSERT_EQ(frond_plant_reset(accounts.small.plant), FROND_OK);
+        accounts.step(1);
+        const Ledger now = accounts.now();
+        EXPECT_NEAR(now.calls - fallen.calls, -sum_of(fallen.now), 1e-3 * -fallen.now.gravity) << asleep;
+        EXPECT_NEAR(now.dissipated, fallen.dissipated, 0.02 * -fallen.now.gravity) << asleep;
+    }
+}
+
 TEST(Ledger, ChangesNoBits) {
     uint64_t hashes[2] = {};
     for (const bool has_ledger : {false, true}) {

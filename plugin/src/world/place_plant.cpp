@@ -84,6 +84,7 @@ void reset_plant(PlantBody& body) {
         body.new_for = 2;
         world.awake.erase(std::remove(world.awake.begin(), world.awake.end(), &body), world.awake.end());
         fall_asleep(world, body);
+        if (world.ledger) look_at(body);  // it counts what a sleeper's reset gave
     } else {
         take_own_shape(body);
         enter_anew(body);
