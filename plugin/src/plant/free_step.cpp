@@ -38,10 +38,10 @@ void take_back(Plant& plant, const FreeStep& step) {
 
 bool may_go_part_of_way(const Plant& plant, double share, double h) {
     constexpr double LIFT = 0.5;  // speed of lifting the plant by its weight, for the work that is no matter [m/s]
-    const double most =
-        std::max(elastic_energy(plant, plant.step.x_good), elastic_energy(plant, plant.state.motion.x)) +
-        node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
-    return elastic_energy(plant, plant.step.x_good + share * way_of_step(plant)) <= most;
+    const double before = elastic_energy(plant, plant.step.x_good),
+                 gained = std::max(0.0, elastic_energy(plant, plant.state.motion.x) - before),
+                 lift = node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
+    return elastic_energy(plant, plant.step.x_good + share * way_of_step(plant)) <= before + share * gained + lift;
 }
 
 void go_part_of_way(Plant& plant, double share) {
