@@ -8,7 +8,6 @@
 #include "contact/remember_contacts.hpp"
 #include "contact/strip_search.hpp"
 #include "core/timer.hpp"
-#include "plant/pins.hpp"
 #include "world/fragments.hpp"
 #include "world/trouble.hpp"
 
@@ -155,8 +154,8 @@ std::vector<StripPath> strip_paths(const World& world, const std::vector<PlantBo
         memory.placed[i] = motion.x;
         then = motion.x + h * motion.v;
         place_corners(*island[i], then, after);
-        paths.push_back({island[i], before.data(), after.data(),
-                         touches_others(world, *island[i], FROND_EFFECT_SELF_CONTACT), way_of_pins(*island[i]->plant)});
+        paths.push_back(
+            {island[i], before.data(), after.data(), touches_others(world, *island[i], FROND_EFFECT_SELF_CONTACT)});
     }
     return paths;
 }

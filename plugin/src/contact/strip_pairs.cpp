@@ -19,7 +19,7 @@ void add_box(const BoxSet::Bounds& box, BoxSet::Bounds& to) {
 
 BoxSet::Bounds way_box(const StripPath& path, int number, double margin) {
     const Strip& strip = path.strip(number);
-    return box_of_way(strip, path.before, path.after, strip.radius + 0.5 * margin + path.astray);
+    return box_of_way(strip, path.before, path.after, strip.radius + 0.5 * margin);
 }
 
 // Boxes of strips, and which they are.

@@ -14,7 +14,6 @@ struct StripPath {
     PlantBody* body;
     const Vec3 *before, *after;  // places of its corners, world frame [m]
     bool with_itself;
-    double astray = 0;  // how much farther than that it may come [m]
     StripCore core_before(int strip) const;
     StripCore core_after(int strip) const;
     const Strip& strip(int number) const { return body->touched().strips[size_t(number)]; }

@@ -252,12 +252,15 @@ static void for_each_near(World& world, const std::function<void(PlantBody&, btC
 
 void find_plants_among_bodies(World& world) {
     for (PlantBody* body : world.awake) body->plant->step.is_among_bodies = false;
+    if (world.awake.empty()) return;
     for_each_near(world, [](PlantBody& body, btCollisionObject&) { body.plant->step.is_among_bodies = true; });
 }
 
 void sweep_what_whipped(World& world, double h) {
+    const auto whips = [](const PlantBody* body) { return has_step(*body) && whips_among_bodies(*body->plant); };
+    if (std::none_of(world.awake.begin(), world.awake.end(), whips)) return;
     for_each_near(world, [&](PlantBody& body, btCollisionObject& object) {
-        if (!has_step(body) || !whips_among_bodies(*body.plant)) return;
+        if (!whips(&body)) return;
         const auto is_of_it = [&](const SweptBody& swept) { return swept.object == &object; };
         const auto known = std::find_if(world.swept.begin(), world.swept.end(), is_of_it);
         if (known == world.swept.end())

@@ -94,8 +94,10 @@ struct PlantBody : btSoftBody {
     // them.
     bool checkCollideWithOverride(const btCollisionObject* other) const override;
     // Returns the plant's body that a collision object is; null if it is none.
-    static PlantBody* of(btCollisionObject* object) { return dynamic_cast<PlantBody*>(object); }
-    static const PlantBody* of(const btCollisionObject* object) { return dynamic_cast<const PlantBody*>(object); }
+    static PlantBody* of(btCollisionObject* object) {
+        return object && object->getInternalType() == CO_SOFT_BODY ? dynamic_cast<PlantBody*>(object) : nullptr;
+    }
+    static const PlantBody* of(const btCollisionObject* object) { return of(const_cast<btCollisionObject*>(object)); }
 };
 
 // Returns whether a plant has been stepped in the running substep.
