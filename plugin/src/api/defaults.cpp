@@ -1,7 +1,11 @@
 // frond_fill_def, frond_default_material: all defaults of the C API.
+#include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
+
 #include "api/call.hpp"
+#include "cage/cage.hpp"
 #include "core/decompose.hpp"
 #include "frond/frond_robot.h"
+#include "skeleton/organ.hpp"
 
 using namespace frond;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/find_contacts.hpp"
 #include "contact/foresee.hpp"
 #include "contact/respond_to_contacts.hpp"
 #include "core/assert.hpp"
