@@ -98,7 +98,7 @@ std::enable_if_t<std::is_arithmetic_v<T>> visit(Archive& archive, T& value) {
 }
 // Reads any byte but zero as true.
 inline void visit(Archive& archive, bool& value) {
-    uint8_t byte = value;
+    uint8_t byte = archive.is_reading() ? 0 : value;  // it may not be set yet
     archive.numbers(&byte, 1);
     value = byte != 0;
 }
