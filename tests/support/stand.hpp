@@ -16,6 +16,15 @@ namespace frond::test {
 
 constexpr double H = 1.0 / 60;
 
+// Returns the def of a world without gravity in which nothing sleeps and a step of that length is not divided.
+inline frond_world_def weightless(double step) {
+    frond_world_def def = frond_default_world_def();
+    def.gravity = {0, 0, 0};
+    def.max_substep = std::max(def.max_substep, step);
+    def.sleep_distance = 0;
+    return def;
+}
+
 struct Stand {
     frond_world world = {};
     frond_model model = {};

@@ -190,7 +190,6 @@ TEST_P(LedgerOf, VelocitiesThatAreSetAreTheCallers) {
     EXPECT_NEAR(accounts.now().dissipated, now.calls, 0.05 * now.calls);
 }
 
-// Plants that go alike are stepped together, but not under a ledger.
 // A plant that falls and is reset was lifted by the caller, also where it sleeps from then on.
 TEST(Ledger, AResetIsTheCallers) {
     for (const int asleep : {0, 1}) {
@@ -213,6 +212,7 @@ TEST(Ledger, AResetIsTheCallers) {
     }
 }
 
+// Plants that go alike are stepped together, but not under a ledger.
 TEST(Ledger, ChangesNoBits) {
     uint64_t hashes[2] = {};
     for (const bool has_ledger : {false, true}) {

@@ -21,7 +21,7 @@ struct Sling : Stand {
     std::vector<int> held;
     frond_rigid ball = {};
 
-    Sling(frond_mechanics mechanics, double young, double step) : Stand(def_of(step)) {
+    Sling(frond_mechanics mechanics, double young, double step) : Stand(frond::test::weightless(step)) {
         constexpr int STEPS = 60;
         h = step;
         make_stems({{-1, {0, 0, 0}, {0, TALL, 0}, THIN, THIN}}, young);
@@ -42,13 +42,6 @@ struct Sling : Stand {
                                            from[size_t(3 * i + 1)], from[size_t(3 * i + 2)]}));
             steps(1);
         }
-    }
-    static frond_world_def def_of(double step) {
-        frond_world_def def = frond_default_world_def();
-        def.gravity = {0, 0, 0};
-        def.max_substep = step;
-        def.sleep_distance = 0;
-        return def;
     }
     // Returns where the stem's axis is at that height; negative infinity beside the stem [m].
     double stem_at(double height) const {

@@ -20,7 +20,7 @@ constexpr double START = 0.5 * MASS * SPEED * SPEED;    // [J]
 struct StruckCorn : Stand {
     frond_rigid ball = {};
     StruckCorn(frond_mechanics mechanics, double step, const frond_vec3& from, const frond_vec3& way)
-        : Stand(def_of(step)) {
+        : Stand(frond::test::weightless(step)) {
         h = step;
         frond_model_def def = frond_default_model_def();
         def.rest = FROND_REST_WITHOUT_GRAVITY;
@@ -34,13 +34,6 @@ struct StruckCorn : Stand {
         rigid.state.position = from;
         rigid.state.velocity = {SPEED * way.x, SPEED * way.y, SPEED * way.z};
         must(frond_rigid_create(world, &rigid, &ball));
-    }
-    static frond_world_def def_of(double step) {
-        frond_world_def def = frond_default_world_def();
-        def.gravity = {0, 0, 0};
-        def.max_substep = std::max(def.max_substep, step);
-        def.sleep_distance = 0;
-        return def;
     }
     double plant_energy() const {
         frond_energy energy = {};

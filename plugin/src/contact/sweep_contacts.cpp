@@ -251,7 +251,6 @@ static void for_each_near(World& world, const std::function<void(PlantBody&, btC
 }
 
 void find_plants_among_bodies(World& world) {
-    for (PlantBody* body : world.awake) body->plant->step.is_among_bodies = false;
     if (world.awake.empty()) return;
     for_each_near(world, [](PlantBody& body, btCollisionObject&) { body.plant->step.is_among_bodies = true; });
 }
@@ -261,12 +260,13 @@ void sweep_what_whipped(World& world, double h) {
     if (std::none_of(world.awake.begin(), world.awake.end(), whips)) return;
     for_each_near(world, [&](PlantBody& body, btCollisionObject& object) {
         if (!whips(&body)) return;
+        // What moves far is swept against all plants near it; of a kinematic body that is new Bullet knows no speed.
+        const ObjectMotion motion =
+            object.isKinematicObject() ? ObjectMotion{object.getWorldTransform()} : motion_of(object, h);
         const auto is_of_it = [&](const SweptBody& swept) { return swept.object == &object; };
         const auto known = std::find_if(world.swept.begin(), world.swept.end(), is_of_it);
         if (known == world.swept.end())
-            world.swept.push_back({&object,
-                                   object.isKinematicObject() ? backwards(motion_of(object, h)) : motion_of(object, h),
-                                   {&body}});
+            world.swept.push_back({&object, motion, {&body}});
         else if (std::find(known->plants.begin(), known->plants.end(), &body) == known->plants.end())
             known->plants.push_back(&body);
     });

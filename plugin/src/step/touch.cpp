@@ -76,6 +76,7 @@ void find_touches(World& world, double h) {
     const std::vector<Contact> last = std::move(world.contacts);
     world.contacts.clear();
     world.swept.clear();
+    for (PlantBody* body : world.awake) body->plant->step.is_among_bodies = false;
     if (world.effects & FROND_EFFECT_RIGID_CONTACT &&
         (world.awake.size() < world.bodies.size() || any_wants(world, FROND_EFFECT_RIGID_CONTACT))) {
         const Timer timer;
