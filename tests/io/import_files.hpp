@@ -157,9 +157,17 @@ inline std::string glb_of(std::string json, std::string binary) {
     return out + binary;
 }
 
-// Returns a few bytes that begin like a PNG: the import does not decode images.
+// Returns a few bytes that begin like a PNG: the import cannot decode it.
 inline std::string png() {
     return std::string("\x89PNG\r\n\x1a\n") + std::string(24, '\x07');
+}
+
+// Returns a TGA of 8 x 8 pixels that is transparent from a column on.
+inline std::string tga_cut_from(int column) {
+    std::string out = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 8, 0, 32, 0x28};
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) out += {20, char(200), 20, char(x < column ? 255 : 0)};
+    return out;
 }
 
 // Returns the buffer: stem (96 + 96 bytes), leaf (48 + 24 bytes), uvs (32), image (32).

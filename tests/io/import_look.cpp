@@ -106,3 +106,37 @@ TEST(ImportLook, ColorsThatBlenderWroteAreLinear) {
     const Surface collada = import_surface(folder.write("plant.dae", dae), {});
     EXPECT_NEAR(part_of(collada, "stem").color[0], 0.5f, 1e-6f);
 }
+
+static double opacity_of_leaf(const Surface& surface) {
+    OpacitySum sum;
+    const Part& leaf = part_of(surface, "leaf");
+    for (int t = leaf.first_triangle; t < leaf.first_triangle + leaf.triangle_count; t++)
+        sum.add(surface, leaf, surface.triangles[size_t(t)]);
+    return sum.mean();
+}
+
+TEST(ImportLook, FindsOutWhatATextureCutsOut) {
+    for (const int column : {8, 6, 4, 1}) {
+        files::Folder folder;
+        folder.write("plant.mtl", "newmtl green\nmap_Kd leaf.tga\n");
+        folder.write("leaf.tga", files::tga_cut_from(column));
+        const Surface surface = import_surface(folder.write("plant.obj", files::obj(false, "plant.mtl")), {});
+        EXPECT_EQ(surface.textures[0].opacity.empty(), column == 8);
+        EXPECT_NEAR(opacity_of_leaf(surface), column / 8.0, 0.05) << column;
+    }
+}
+
+TEST(ImportLook, InGltfAlphaCutsOutWhereTheMaterialSaysSo) {
+    for (const std::string mode :
+         {"", "\"alphaMode\":\"OPAQUE\",", "\"alphaMode\":\"MASK\",", "\"alphaMode\":\"BLEND\","}) {
+        files::Folder folder;
+        folder.write("leaf.tga", files::tga_cut_from(4));
+        folder.write("plant.bin", files::glb_binary());
+        const std::string json =
+            replaced(replaced(files::gltf_json("plant.bin"), "{\"name\":\"green\",", "{\"name\":\"green\"," + mode),
+                     R"({"bufferView":5,"mimeType":"image/png","name":"leaf_image"})", R"({"uri":"leaf.tga"})");
+        const Surface surface = import_surface(folder.write("plant.gltf", json), {});
+        const bool cuts = mode.find("MASK") != std::string::npos || mode.find("BLEND") != std::string::npos;
+        EXPECT_NEAR(opacity_of_leaf(surface), cuts ? 0.5 : 1, 0.05) << mode;
+    }
+}

@@ -7,15 +7,12 @@
 #include <vector>
 
 #include "frame.hpp"
+#include "importer/decode_image.hpp"
 
 namespace picture {
 
-// A decoded image, RGBA, sRGB; rows from the top.
-struct Image {
-    int width = 0, height = 0;
-    std::vector<uint8_t> rgba;
-};
-// Decodes the bytes of an image file; fails with a text if they cannot be decoded.
+using frond::Image;
+// Decodes the bytes of an image file, WebP too; fails with a text if they cannot be decoded.
 Image decode_image(const uint8_t* bytes, size_t byte_count);
 // Gives transparent pixels the colour of opaque ones, so that no fringe appears along cut edges.
 void fill_transparent(Image& image);

@@ -19,7 +19,8 @@ void take_materials(Model& model) {
         const size_t organ = size_t(model.cage.tet_organ[e]);
         const Material& material = model.organs[organ].material;
         const double hole = hole_share(model.organs[organ]);
-        model.tet_young[e] = material.young * model.organ_stiffer[organ] * model.cage.tet_fill[e] * (1 - hole * hole);
+        model.tet_young[e] = material.young * model.organ_stiffer[organ] * model.cage.tet_fill[e] * (1 - hole * hole) *
+                             seen_share(model.organs[organ]);
         model.tet_poisson[e] = material.poisson;
     }
 }

@@ -35,6 +35,9 @@ std::string find_beside(const std::string& folder, const std::string& reference)
 int take_texture(Surface& surface, const std::string& name, const std::string& bytes);
 int take_texture_file(Surface& surface, const MeshFile& file, const std::string& reference);
 
+// Finds out what a texture's alpha cuts out: Texture::opacity. Leaves what cannot be decoded as it is.
+void find_opacity(Texture& texture);
+
 // Guesses the texture of a material that names none: a picture near the model with the name of the material or, failing
 // that, of the model ("bark_diffuse.png", "fern.png" for fern.obj). Returns its index in the surface; -1 if there is
 // none.
@@ -43,6 +46,10 @@ int guess_texture(Surface& surface, const MeshFile& file, const std::string& mat
 // Reads base colour and texture of a material; has_uvs: the mesh has texture coordinates.
 void take_material(const aiScene& scene, const aiMaterial& material, const MeshFile& file, bool has_uvs,
                    Surface& surface, Part& part);
+
+// Returns whether the alpha of a material's texture cuts out what is drawn: glTF says so, other formats have no word
+// for it.
+bool counts_alpha(const aiMaterial& material, const MeshFile& file);
 
 // Convert sRGB to linear and back, 0..1.
 float linear_of(float srgb);

@@ -211,6 +211,7 @@ Surface read_ply(const MeshFile& file) {
         part.texture = take_texture_file(surface, file, header.texture);
     if (part.texture < 0 && !corners.uvs.empty() && corners.colors.empty())
         part.texture = guess_texture(surface, file, "");
+    if (part.texture >= 0) find_opacity(surface.textures[size_t(part.texture)]);
     if (part.texture >= 0) part.color = {1, 1, 1, 1};
     append_part(surface, corners, part);
     return surface;

@@ -99,6 +99,12 @@ static Look read_look(const aiScene& scene, const aiMaterial& material, const Me
     return look;
 }
 
+bool counts_alpha(const aiMaterial& material, const MeshFile& file) {
+    aiString mode;
+    return !is_gltf(file) ||
+           (material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS && std::string(mode.C_Str()) != "OPAQUE");
+}
+
 void take_material(const aiScene& scene, const aiMaterial& material, const MeshFile& file, bool has_uvs,
                    Surface& surface, Part& part) {
     aiString name;

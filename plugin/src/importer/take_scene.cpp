@@ -285,6 +285,7 @@ Surface take_scene(const aiScene& scene, const MeshFile& file) {
     size_t dropped_lines = 0, dropped_copies = 0;
     double rounding = 0;
     std::map<std::string, Part> looks;  // by material index
+    std::set<int> cut_out;              // textures whose alpha counts
     for (size_t n = 0; n < nodes.size(); ++n)
         for (unsigned m = 0; m < nodes[n].node->mNumMeshes; ++m) {
             const unsigned index = nodes[n].node->mMeshes[m];
@@ -295,9 +296,11 @@ Surface take_scene(const aiScene& scene, const MeshFile& file) {
             }
             const aiMesh& mesh = *scene.mMeshes[index];
             const std::string key = std::to_string(mesh.mMaterialIndex);
-            if (!looks.count(key) && mesh.mMaterialIndex < scene.mNumMaterials)
-                take_material(scene, *scene.mMaterials[mesh.mMaterialIndex], file, mesh.HasTextureCoords(0), surface,
-                              looks[key]);
+            if (!looks.count(key) && mesh.mMaterialIndex < scene.mNumMaterials) {
+                const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
+                take_material(scene, material, file, mesh.HasTextureCoords(0), surface, looks[key]);
+                if (counts_alpha(material, file)) cut_out.insert(looks[key].texture);
+            }
             Part part = looks[key];
             part.name = name_part(nodes, int(n), mesh, file);
             const bool with_colors = wants_colors(mesh, file, part);
@@ -314,6 +317,8 @@ Surface take_scene(const aiScene& scene, const MeshFile& file) {
             if (surface.parts.size() > MOST_PARTS)
                 fail(FROND_RESULT_BAD_GEOMETRY, "the file has more than %zu parts", MOST_PARTS);
         }
+    for (const int texture : cut_out)
+        if (texture >= 0) find_opacity(surface.textures[size_t(texture)]);
     if (dropped_copies > 0) warn("%zu coarser copies (LOD1 and up) are left out", dropped_copies);
     if (dropped_lines > 0) warn("%zu lines and points are left out", dropped_lines);
     if (surface.triangles.empty()) fail(FROND_RESULT_FILE_FORMAT, "there are no triangles in the file");

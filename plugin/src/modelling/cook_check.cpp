@@ -103,6 +103,7 @@ void check_organs(const Model& model) {
     need_positive(model.organ_stiffer, "an organ's stiffness is out of range");
     for (const Organ& organ : model.organs) {
         need(material_preset(organ.kind) != nullptr, "an organ is of no known kind");
+        need(organ.opacity > 0 && organ.opacity <= 1, "an organ's opacity is out of range");
         try {
             check_material(organ.material, organ.kind);
         } catch (const Error& error) {

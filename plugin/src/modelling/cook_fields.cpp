@@ -23,8 +23,8 @@ static void visit(Archive& a, Material& material) {
 }
 
 static void visit(Archive& a, Organ& organ) {
-    auto& [name, kind, material, young_given, midrib_given, why, certainty] = organ;
-    a(name, kind, material, young_given, midrib_given, why, certainty);
+    auto& [name, kind, material, young_given, midrib_given, why, certainty, opacity] = organ;
+    a(name, kind, material, young_given, midrib_given, why, certainty, opacity);
 }
 
 static void visit(Archive& a, ChainNode& node) {

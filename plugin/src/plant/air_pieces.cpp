@@ -71,14 +71,15 @@ AirPieces make_air_pieces(const Model& model) {
         piece.shape = shape_of(organ);
         piece.coefficient = coefficient_of(organ, size);
         const double end = piece.shape == AirShape::COMPACT ? size.section * section.length / size.length : 0;
-        piece.area = Vec3(end, section.width * section.length, section.thickness * section.length);
+        const double seen = seen_share(organ);
+        piece.area = seen * Vec3(end, section.width * section.length, section.thickness * section.length);
         piece.size = section.width;
         // An ellipse's perimeter is approximated by that of the circle of its root mean square diameter.
         const double rim =
             piece.shape == AirShape::SHEET
                 ? 2 * section.width
                 : PI * std::sqrt((section.width * section.width + section.thickness * section.thickness) / 2);
-        piece.skin = rim * section.length;
+        piece.skin = seen * rim * section.length;
         piece.chord_along = size.length;
         piece.chord_across = section.width;
         piece.wide = (section.wide() - section.axis * section.axis.dot(section.wide())).normalized();

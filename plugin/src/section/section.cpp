@@ -215,12 +215,13 @@ void finish_section(const Organ& organ, Section& section) {
     const double hole = hole_share(organ);
     section.area *= 1 - hole;
     for (double* moment : {&section.inertia_thin, &section.inertia_wide, &section.torsion}) *moment *= 1 - hole * hole;
-    section.density = material.density;
+    section.density = seen_share(organ) * material.density;
     if (section.thickness > solid_thickness(organ)) section.density *= solid_thickness(organ) / section.thickness;
-    section.young = material.young;
-    section.shear = material.young / (2 * (1 + material.poisson));
+    // A sheet with holes is as stiff as what is left of it.
+    section.young = seen_share(organ) * material.young;
+    section.shear = section.young / (2 * (1 + material.poisson));
     if (material.twist_to_bend > 0)
-        section.shear = material.young * 0.5 * (section.inertia_thin + section.inertia_wide) /
+        section.shear = section.young * 0.5 * (section.inertia_thin + section.inertia_wide) /
                         (material.twist_to_bend * section.torsion);
 }
 
@@ -256,6 +257,10 @@ static void add_drawn_rib(const RibCut& rib, const Organ& organ, const CapsuleFr
 
 double hole_share(const Organ& organ) {
     return is_sheet(organ) ? 0 : organ.material.hollow * organ.material.hollow;
+}
+
+double seen_share(const Organ& organ) {
+    return is_sheet(organ) ? organ.opacity : 1;
 }
 
 std::vector<Section> measure_sections(const Surface& surface, const Topology& topology,

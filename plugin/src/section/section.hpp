@@ -76,6 +76,8 @@ void finish_section(const Organ& organ, Section& section);
 
 // Returns the share of an organ's outline that is a hole [-]: hollow squared; 0 for blades and flowers.
 double hole_share(const Organ& organ);
+// Returns the share of a sheet's face that is there, as textures cut out the rest [-]; 1 for what is no sheet.
+double seen_share(const Organ& organ);
 
 // Computes Saint-Venant's torsion constant of one compact outline from its area and principal second moments [m^4]:
 // exact for ellipses and rectangles of any aspect, within 6 % for an equilateral triangle; never more than the polar

@@ -17,6 +17,7 @@ struct Organ {
     bool young_given = false, midrib_given = false;  // by the caller, who knows better than margins and hidden ribs
     std::string why = {};                            // what speaks for its kind
     double certainty = 1;  // 0: another kind is as likely, 1: nothing speaks for another one [-]
+    double opacity = 1;    // share of its surface that textures do not cut out [-]
 };
 
 // Returns published values by kind; null if there is no such kind.

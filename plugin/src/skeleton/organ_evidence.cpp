@@ -195,6 +195,15 @@ static void find_bearing(Evidence& plant) {
 }
 
 // Bright parts are flowers or fruit only beside more of something else, else the plant has the colour of its season.
+static void find_opacities(const Regions& cut, Evidence& plant) {
+    std::vector<OpacitySum> sums(cut.regions.size());
+    for (const Part& part : plant.surface.parts)
+        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
+            if (const int region = cut.region_of[size_t(t)]; region >= 0)
+                sums[size_t(region)].add(plant.surface, part, plant.surface.triangles[size_t(t)]);
+    for (const OpacitySum& sum : sums) plant.opacity.push_back(sum.mean());
+}
+
 static void find_bright_parts(Evidence& plant) {
     std::vector<double> area(plant.surface.parts.size(), 0.0);
     double bright = 0, all = 0;
@@ -225,6 +234,7 @@ Evidence gather_evidence(const Surface& surface, const Regions& cut, const std::
     plant.trust = weigh_names(surface, named);
     plant.crown = share_of_crowns(cut, crowns);
     find_bright_parts(plant);
+    find_opacities(cut, plant);
     return plant;
 }
 

@@ -10,17 +10,18 @@ struct Evidence {
     const std::vector<Region>& regions;
     const std::vector<std::string>& named;
     double foot, height, size;
-    std::string tube;                 // kind of tubes
-    bool has_wood = false;            // a part is named after wood
-    int bare = 0;                     // number of meshes on the ground that bear nothing
-    std::vector<double> bright = {};  // by part
-    std::vector<double> trust = {};   // by part, weight of its name
-    std::vector<double> crown = {};   // by region, share of its triangles that belong to round solids
-    std::vector<int> leaves = {};     // by region, sheets that grow out of it and what it bears
-    std::vector<int> borne = {};      // by region, those that grow out of it and do not stand beside it
-    std::vector<int> growths = {};    // by region, tubes and sheets that grow out of it and are no hairs
-    std::vector<int> others = {};     // by region, solids and tubes that bear no leaf likewise
-    std::vector<char> bears = {};     // by region, whether it is a sheet but a piece of a stem
+    std::string tube;                  // kind of tubes
+    bool has_wood = false;             // a part is named after wood
+    int bare = 0;                      // number of meshes on the ground that bear nothing
+    std::vector<double> bright = {};   // by part
+    std::vector<double> trust = {};    // by part, weight of its name
+    std::vector<double> opacity = {};  // by region, share of its area that textures do not cut out
+    std::vector<double> crown = {};    // by region, share of its triangles that belong to round solids
+    std::vector<int> leaves = {};      // by region, sheets that grow out of it and what it bears
+    std::vector<int> borne = {};       // by region, those that grow out of it and do not stand beside it
+    std::vector<int> growths = {};     // by region, tubes and sheets that grow out of it and are no hairs
+    std::vector<int> others = {};      // by region, solids and tubes that bear no leaf likewise
+    std::vector<char> bears = {};      // by region, whether it is a sheet but a piece of a stem
     Heads heads = {};
 };
 

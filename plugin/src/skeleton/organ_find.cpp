@@ -265,6 +265,15 @@ static void color_by_kind(Surface& surface, const std::vector<Organ>& organs) {
             part.color = color_of_kind(organs[size_t(part.organ)].kind);
 }
 
+static void measure_opacity(const Surface& surface, std::vector<Organ>& organs) {
+    constexpr double LEAST = 0.05;  // a leaf whose picture is all but empty is there nevertheless [-]
+    std::vector<OpacitySum> sums(organs.size());
+    for (const Part& part : surface.parts)
+        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
+            sums[size_t(part.organ)].add(surface, part, surface.triangles[size_t(t)]);
+    for (size_t o = 0; o < organs.size(); o++) organs[o].opacity = std::max(LEAST, sums[o].mean());
+}
+
 std::vector<Organ> find_organs(Surface& surface, Topology& topology) {
     if (surface.triangles.empty() || topology.triangles.size() != surface.triangles.size())
         fail(FROND_RESULT_BAD_GEOMETRY, "the model has no triangles; give at least one with area");
@@ -276,6 +285,7 @@ std::vector<Organ> find_organs(Surface& surface, Topology& topology) {
     split_parts(surface, topology, found.organ_of);
     std::vector<Organ> organs = name_organs(surface, found.organs);
     color_by_kind(surface, organs);
+    measure_opacity(surface, organs);
     return organs;
 }
 

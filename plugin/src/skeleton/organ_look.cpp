@@ -18,10 +18,4 @@ bool is_bright(const std::array<float, 4>& color) {
     return !is_green(color) && !is_brown(color) && (most - least > 0.15f || least > 0.75f);
 }
 
-bool has_alpha(const Texture& texture) {
-    constexpr size_t COLOR_TYPE = 25;
-    return texture.bytes.size() > COLOR_TYPE && texture.bytes[1] == 'P' && texture.bytes[2] == 'N' &&
-           (texture.bytes[COLOR_TYPE] == 4 || texture.bytes[COLOR_TYPE] == 6);
-}
-
 }  // namespace frond

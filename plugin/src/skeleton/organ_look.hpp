@@ -9,7 +9,5 @@ namespace frond {
 bool is_green(const std::array<float, 4>& color);
 bool is_brown(const std::array<float, 4>& color);
 bool is_bright(const std::array<float, 4>& color);
-// Returns whether a texture is a PNG with an alpha channel.
-bool has_alpha(const Texture& texture);
 
 }  // namespace frond

@@ -105,7 +105,12 @@ void vote_by_look(const Evidence& plant, size_t r, Ballot& ballot) {
     const Region& region = plant.regions[r];
     const Part& part = plant.surface.parts[size_t(region.part)];
     if (part.texture >= 0) {
-        if (has_alpha(plant.surface.textures[size_t(part.texture)])) ballot.add("blade", 1, "texture with alpha");
+        constexpr double CUT_OUT = 0.9;  // largest opacity of what a picture cuts out [-]
+        if (plant.opacity[r] < CUT_OUT) {
+            char why[60];
+            std::snprintf(why, sizeof why, "texture cuts out %.0f %%", 100 * (1 - plant.opacity[r]));
+            ballot.add("blade", 1, why);
+        }
         return;
     }
     if (part.color == Part().color) return;

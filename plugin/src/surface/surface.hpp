@@ -22,6 +22,10 @@ struct Part {
 struct Texture {
     std::string name;
     std::vector<uint8_t> bytes;  // contents of an image file
+    // Share of each of GRID x GRID cells that its alpha does not cut out, 0 to 255, rows from the top; empty: nothing
+    // is cut out.
+    static constexpr int GRID = 64;
+    std::vector<uint8_t> opacity;
 };
 
 struct Surface {
@@ -53,6 +57,12 @@ struct Surface {
 void clean_surface(Surface& surface);
 // Puts back single triangles that a cleaned surface lost within a mesh; returns how many.
 int fill_lost_triangles(Surface& surface);
+// Sums up, by area, the opacity of triangles: the share that their textures do not cut out.
+struct OpacitySum {
+    double area = 0, seen = 0;  // [m^2]
+    void add(const Surface& surface, const Part& part, const Triangle& triangle);
+    double mean() const { return area > 0 ? seen / area : 1; }
+};
 // Makes normals for the vertices flagged in `missing`: smooth over all triangles at the same position, weighted by
 // area.
 void make_normals(Surface& surface, const std::vector<char>& missing);

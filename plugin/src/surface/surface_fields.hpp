@@ -13,8 +13,8 @@ inline void visit(Archive& a, Part& part) {
 }
 
 inline void visit(Archive& a, Texture& texture) {
-    auto& [name, bytes] = texture;
-    a(name, bytes);
+    auto& [name, bytes, opacity] = texture;
+    a(name, bytes, opacity);
 }
 
 inline void visit(Archive& a, Surface& surface) {

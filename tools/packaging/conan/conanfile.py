@@ -45,7 +45,7 @@ class Frond(ConanFile):
         self.requires("eigen/[>=3.4 <4]", visible=False)
         if self.options.importer:
             for name in ("assimp/[>=5.0 <6]", "nlohmann_json/[>=3.9 <4]", "meshoptimizer/[>=0.18 <1]", "urdfdom/[>=3 <5]",
-                         "tinyxml2/[>=9 <12]", "console_bridge/[>=1.0 <2]"):
+                         "tinyxml2/[>=9 <12]", "console_bridge/[>=1.0 <2]", "stb/[*]"):
                 self.requires(name, visible=False)
 
     def generate(self):

@@ -1,0 +1,44 @@
+// In: a texture. Out: what its alpha cuts out. Leaves are often drawn as cards on which a picture shows the leaf, so
+// that most of a card is air.
+#include <algorithm>
+
+#include "importer/decode_image.hpp"
+#include "importer/importer.hpp"
+
+namespace frond {
+
+static std::vector<uint8_t> coarse_opacity(const Image& image) {
+    constexpr uint8_t HALF = 128;  // alpha from which a pixel is drawn, glTF's default for masks
+    constexpr size_t GRID = size_t(Texture::GRID);
+    const size_t width = size_t(image.width), height = size_t(image.height);
+    std::vector<uint8_t> opacity;
+    for (size_t row = 0; row < GRID; row++)
+        for (size_t column = 0; column < GRID; column++) {
+            const size_t top = row * height / GRID, left = column * width / GRID;
+            const size_t bottom = std::max(top + 1, (row + 1) * height / GRID),
+                         right = std::max(left + 1, (column + 1) * width / GRID);
+            size_t seen = 0;
+            for (size_t y = top; y < bottom; y++)
+                for (size_t x = left; x < right; x++) seen += image.rgba[4 * (y * width + x) + 3] >= HALF;
+            opacity.push_back(uint8_t(255 * seen / ((bottom - top) * (right - left))));
+        }
+    return opacity;
+}
+
+// Returns whether an image file may have an alpha channel, so that it is worth to decode it.
+static bool may_have_alpha(const std::vector<uint8_t>& bytes) {
+    constexpr size_t COLOR_TYPE = 25;                                                        // of a PNG
+    if (bytes.size() <= COLOR_TYPE || (bytes[0] == 0xff && bytes[1] == 0xd8)) return false;  // a JPEG has none
+    return bytes[1] != 'P' || bytes[2] != 'N' || bytes[COLOR_TYPE] == 4 || bytes[COLOR_TYPE] == 6;
+}
+
+void find_opacity(Texture& texture) {
+    Image image;
+    if (!may_have_alpha(texture.bytes) || !decode_image(texture.bytes.data(), texture.bytes.size(), image).empty())
+        return;
+    std::vector<uint8_t> opacity = coarse_opacity(image);
+    if (std::any_of(opacity.begin(), opacity.end(), [](uint8_t share) { return share < 255; }))
+        texture.opacity = std::move(opacity);
+}
+
+}  // namespace frond
