@@ -2,7 +2,7 @@ cmake_minimum_required(VERSION 3.21)
 # Only plugin/src/core/platform names an operating system, a processor or a compiler; the rest of plugin/src includes headers of
 # standard C++ and of the libraries that it stands on, and uses nothing beyond the standard, nor anything thread_local but
 # letters: MinGW destroys such objects in memory that it has freed.
-set(libraries "Eigen/|bt[A-Z]|Bullet[A-Z]|LinearMath/|assimp/|urdf_parser/|tinyxml2\\.h|console_bridge/|nlohmann/|meshoptimizer\\.h")
+set(libraries "Eigen/|bt[A-Z]|Bullet[A-Z]|LinearMath/|assimp/|urdf_parser/|tinyxml2\\.h|console_bridge/|nlohmann/|meshoptimizer\\.h|stb_image\\.h")
 set(beyond "__attribute__|__builtin|__declspec|__restrict|__has_feature|\\[\\[gnu::|_WIN32|__linux__|__unix__|__APPLE__|__GNUC__|__clang__|_MSC_VER|__x86_64__|__aarch64__|__SSE|__AVX|__FMA__|__ARM|[^a-z_]asm *\\(|M_PI|M_SQRT2|strcasecmp|/proc/|/dev/|[^a-z_:]fopen *\\(|getenv *\\(|from_chars *\\(|thread_local [^c]")
 set(errors "")
 set(in_room 0)

@@ -1,6 +1,7 @@
 // Files for the import tests: a small plant of a stem and a mirrored leaf, in two nodes, written in each format.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -162,12 +163,18 @@ inline std::string png() {
     return std::string("\x89PNG\r\n\x1a\n") + std::string(24, '\x07');
 }
 
-// Returns a TGA of 8 x 8 pixels that is transparent from a column on.
-inline std::string tga_cut_from(int column) {
+// Returns a TGA of 8 x 8 pixels whose alpha is that of its column.
+inline std::string tga(const std::array<int, 8>& alpha) {
     std::string out = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 8, 0, 32, 0x28};
     for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 8; ++x) out += {20, char(200), 20, char(x < column ? 255 : 0)};
+        for (const int a : alpha) out += {20, char(200), 20, char(a)};
     return out;
+}
+// Returns one that is transparent from a column on.
+inline std::string tga_cut_from(int column) {
+    std::array<int, 8> alpha;
+    for (int x = 0; x < 8; ++x) alpha[size_t(x)] = x < column ? 255 : 0;
+    return tga(alpha);
 }
 
 // Returns the buffer: stem (96 + 96 bytes), leaf (48 + 24 bytes), uvs (32), image (32).

@@ -126,6 +126,14 @@ TEST(ImportLook, FindsOutWhatATextureCutsOut) {
     }
 }
 
+TEST(ImportLook, GlossKeptInAlphaCutsOutNothing) {
+    files::Folder folder;
+    folder.write("plant.mtl", "newmtl green\nmap_Kd leaf.tga\n");
+    folder.write("leaf.tga", files::tga({60, 80, 100, 120, 140, 160, 180, 200}));
+    const Surface surface = import_surface(folder.write("plant.obj", files::obj(false, "plant.mtl")), {});
+    EXPECT_TRUE(surface.textures[0].opacity.empty());
+}
+
 TEST(ImportLook, InGltfAlphaCutsOutWhereTheMaterialSaysSo) {
     for (const std::string mode :
          {"", "\"alphaMode\":\"OPAQUE\",", "\"alphaMode\":\"MASK\",", "\"alphaMode\":\"BLEND\","}) {

@@ -375,8 +375,8 @@ typedef struct frond_part {
     float color[4]; /* base colour, linear RGBA */
     int texture;    /* index of the base-colour texture, -1: none */
 } frond_part;
-/* A texture as in the file: the bytes of an image file (PNG, JPEG ...), to be decoded by the renderer. Frond itself looks
- * at their alpha only, as it is imported: what that cuts out of a leaf weighs nothing, bends nothing and catches no wind. */
+/* A texture as in the file: the bytes of an image file (PNG, JPEG ...), to be decoded by the renderer. Frond looks at
+ * its alpha only, at import: what that cuts out of a leaf weighs nothing, bends nothing and catches no wind. */
 typedef struct frond_texture_view {
     const char* name; /* path or name in the file */
     const uint8_t* bytes;

@@ -136,9 +136,9 @@ static std::vector<double> weigh_sections(Model& model) {
     return organs;
 }
 
-// Returns the density of an organ's outline: less its hole, and what textures cut out of it [kg/m^3].
-static double density_of(const Organ& organ) {
-    return organ.material.density * (1 - hole_share(organ)) * seen_share(organ);
+// Returns the share of an organ's outline that weighs: all but its hole and what textures cut out [-].
+static double tissue_share(const Organ& organ) {
+    return (1 - hole_share(organ)) * seen_share(organ);
 }
 
 // Shares the plant's mass among its organs by what is drawn of each: a tet is of one organ, so that what a small one
@@ -146,7 +146,8 @@ static double density_of(const Organ& organ) {
 static void share_by_drawing(Model& model) {
     const double mass = std::accumulate(model.organ_mass.begin(), model.organ_mass.end(), 0.0);
     std::vector<double> drawn = model.cage.organ_tissue;
-    for (size_t o = 0; o < drawn.size(); o++) drawn[o] *= density_of(model.organs[o]);
+    for (size_t o = 0; o < drawn.size(); o++)
+        drawn[o] *= model.organs[o].material.density * tissue_share(model.organs[o]);
     const double sum = std::accumulate(drawn.begin(), drawn.end(), 0.0);
     if (!(sum > 0)) return;
     for (size_t o = 0; o < drawn.size(); o++) model.organ_mass[o] = drawn[o] * mass / sum;
@@ -160,7 +161,7 @@ void give_mass(Model& model) {
     model.organ_mass.assign(model.organs.size(), 0.0);
     for (size_t e = 0; e < cage.tets.size(); e++) {
         const Organ& organ = model.organs[size_t(cage.tet_organ[e])];
-        model.tet_density[e] = density_of(organ) * cage.tet_fill[e];
+        model.tet_density[e] = organ.material.density * cage.tet_fill[e] * tissue_share(organ);
         model.organ_mass[size_t(cage.tet_organ[e])] += model.tet_density[e] * tet_volume(cage.nodes, cage.tets[e]);
     }
     if (!model.exact_sections) {

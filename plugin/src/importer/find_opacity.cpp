@@ -25,17 +25,26 @@ static std::vector<uint8_t> coarse_opacity(const Image& image) {
     return opacity;
 }
 
+// Returns whether alpha says what is there: it is nearly all or nothing. Some programs keep gloss in it.
+static bool is_mask(const Image& image) {
+    constexpr size_t FEW = 4;  // pixels, at least, for each one that is half transparent
+    size_t half = 0;
+    for (size_t i = 3; i < image.rgba.size(); i += 4) half += image.rgba[i] >= 64 && image.rgba[i] < 192;
+    return half * FEW <= image.rgba.size() / 4;
+}
+
 // Returns whether an image file may have an alpha channel, so that it is worth to decode it.
 static bool may_have_alpha(const std::vector<uint8_t>& bytes) {
-    constexpr size_t COLOR_TYPE = 25;                                                        // of a PNG
-    if (bytes.size() <= COLOR_TYPE || (bytes[0] == 0xff && bytes[1] == 0xd8)) return false;  // a JPEG has none
+    constexpr size_t COLOR_TYPE = 25;  // of a PNG
+    const bool is_jpeg = bytes.size() > COLOR_TYPE && bytes[0] == 0xff && bytes[1] == 0xd8;
+    if (bytes.size() <= COLOR_TYPE || is_jpeg) return false;
     return bytes[1] != 'P' || bytes[2] != 'N' || bytes[COLOR_TYPE] == 4 || bytes[COLOR_TYPE] == 6;
 }
 
 void find_opacity(Texture& texture) {
     Image image;
-    if (!may_have_alpha(texture.bytes) || !decode_image(texture.bytes.data(), texture.bytes.size(), image).empty())
-        return;
+    if (!may_have_alpha(texture.bytes)) return;
+    if (!decode_image(texture.bytes.data(), texture.bytes.size(), image).empty() || !is_mask(image)) return;
     std::vector<uint8_t> opacity = coarse_opacity(image);
     if (std::any_of(opacity.begin(), opacity.end(), [](uint8_t share) { return share < 255; }))
         texture.opacity = std::move(opacity);

@@ -266,12 +266,15 @@ static void color_by_kind(Surface& surface, const std::vector<Organ>& organs) {
 }
 
 static void measure_opacity(const Surface& surface, std::vector<Organ>& organs) {
-    constexpr double LEAST = 0.05;  // a leaf whose picture is all but empty is there nevertheless [-]
+    constexpr double LEAST = 0.02;  // leaves of which less is seen are a mistake of the exporter [-]
     std::vector<OpacitySum> sums(organs.size());
     for (const Part& part : surface.parts)
         for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
             sums[size_t(part.organ)].add(surface, part, surface.triangles[size_t(t)]);
-    for (size_t o = 0; o < organs.size(); o++) organs[o].opacity = std::max(LEAST, sums[o].mean());
+    for (size_t o = 0; o < organs.size(); o++) {
+        const double seen = sums[o].mean();
+        organs[o].opacity = seen < LEAST ? 1 : seen;
+    }
 }
 
 std::vector<Organ> find_organs(Surface& surface, Topology& topology) {
