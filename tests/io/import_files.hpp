@@ -177,6 +177,28 @@ inline std::string tga_cut_from(int column) {
     return tga(alpha);
 }
 
+// Returns a PNG of 8 x 8 pixels by a palette whose second colour, that from a column on, is transparent. Its deflated
+// data is stored as it is, and its checksums are zero, which readers of textures do not mind.
+inline std::string palette_png_cut_from(int column) {
+    std::string out = "\x89PNG\r\n\x1a\n";
+    const auto add_chunk = [&](const char* kind, const std::string& data) {
+        out += {0, 0, 0, char(data.size())};
+        out += kind + data + std::string(4, '\0');
+    };
+    add_chunk("IHDR", {0, 0, 0, 8, 0, 0, 0, 8, 8, 3, 0, 0, 0});
+    add_chunk("PLTE", {20, char(200), 20, 0, 0, 0});
+    add_chunk("tRNS", {char(255), 0});
+    std::string rows;
+    for (int y = 0; y < 8; ++y) {
+        rows += '\0';  // no filter
+        for (int x = 0; x < 8; ++x) rows += char(x < column ? 0 : 1);
+    }
+    const char size = char(rows.size());
+    add_chunk("IDAT", std::string({0x78, 0x01, 0x01, size, 0, char(~size), char(255)}) + rows + std::string(4, '\0'));
+    add_chunk("IEND", "");
+    return out;
+}
+
 // Returns the buffer: stem (96 + 96 bytes), leaf (48 + 24 bytes), uvs (32), image (32).
 inline std::string glb_binary() {
     std::vector<float> uvs = leaf_uvs_bottom_up();

@@ -126,6 +126,14 @@ TEST(ImportLook, FindsOutWhatATextureCutsOut) {
     }
 }
 
+TEST(ImportLook, ColoursOfAPaletteMayCutOut) {
+    files::Folder folder;
+    folder.write("plant.mtl", "newmtl green\nmap_Kd leaf.png\n");
+    folder.write("leaf.png", files::palette_png_cut_from(6));
+    const Surface surface = import_surface(folder.write("plant.obj", files::obj(false, "plant.mtl")), {});
+    EXPECT_NEAR(opacity_of_leaf(surface), 0.75, 0.05);
+}
+
 TEST(ImportLook, GlossKeptInAlphaCutsOutNothing) {
     files::Folder folder;
     folder.write("plant.mtl", "newmtl green\nmap_Kd leaf.tga\n");

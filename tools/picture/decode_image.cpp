@@ -9,11 +9,10 @@
 namespace picture {
 
 static Image decode_webp(const uint8_t* bytes, size_t byte_count) {
-    constexpr int64_t MAX_PIXELS = int64_t(1) << 26;
     Image image;
     if (!WebPGetInfo(bytes, byte_count, &image.width, &image.height)) fail("the WebP image is damaged; export it anew");
-    if (int64_t(image.width) * image.height > MAX_PIXELS)
-        fail("the image is %d x %d pixels; make it smaller than 8192 x 8192", image.width, image.height);
+    const std::string wrong = frond::wrong_size(image);
+    if (!wrong.empty()) fail("%s", wrong.c_str());
     image.rgba.resize(size_t(image.width) * size_t(image.height) * 4);
     if (!WebPDecodeRGBAInto(bytes, byte_count, image.rgba.data(), image.rgba.size(), image.width * 4))
         fail("the WebP image is damaged; export it anew");

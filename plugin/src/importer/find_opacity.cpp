@@ -33,17 +33,9 @@ static bool is_mask(const Image& image) {
     return half * FEW <= image.rgba.size() / 4;
 }
 
-// Returns whether an image file may have an alpha channel, so that it is worth to decode it.
-static bool may_have_alpha(const std::vector<uint8_t>& bytes) {
-    constexpr size_t COLOR_TYPE = 25;  // of a PNG
-    const bool is_jpeg = bytes.size() > COLOR_TYPE && bytes[0] == 0xff && bytes[1] == 0xd8;
-    if (bytes.size() <= COLOR_TYPE || is_jpeg) return false;
-    return bytes[1] != 'P' || bytes[2] != 'N' || bytes[COLOR_TYPE] == 4 || bytes[COLOR_TYPE] == 6;
-}
-
 void find_opacity(Texture& texture) {
     Image image;
-    if (!may_have_alpha(texture.bytes)) return;
+    if (!has_alpha(texture.bytes.data(), texture.bytes.size())) return;
     if (!decode_image(texture.bytes.data(), texture.bytes.size(), image).empty() || !is_mask(image)) return;
     std::vector<uint8_t> opacity = coarse_opacity(image);
     if (std::any_of(opacity.begin(), opacity.end(), [](uint8_t share) { return share < 255; }))

@@ -39,7 +39,7 @@ void wake_blown(World& world) {
     if (asked.empty()) return;
     wind_velocities(*world.wind, up_of(gravity_of(world)), world.time, points, air);
     for (size_t i = 0; i < asked.size(); i++)
-        if ((Vec3(air[i].x, air[i].y, air[i].z) - asked[i]->rest.air).norm() > GUST) wake(*asked[i]);
+        if ((Vec3(air[i].x, air[i].y, air[i].z) - asked[i]->rest.air.cast<double>()).norm() > GUST) wake(*asked[i]);
 }
 
 // Returns whether all numbers agree within `distance`. Begins at the end, where points move most.
@@ -81,7 +81,7 @@ void fall_asleep(World& world, PlantBody& body) {
     if (!world.wind) return;
     std::vector<frond_vec3> air;
     wind_velocities(*world.wind, up_of(gravity_of(world)), world.time, {middle_of(body)}, air);
-    body.rest.air = Vec3(air[0].x, air[0].y, air[0].z);
+    body.rest.air = Vec3(air[0].x, air[0].y, air[0].z).cast<float>();
 }
 
 void compress_looked_at(World& world) {

@@ -18,10 +18,10 @@ struct LastContacts;
 // How long a plant has been at rest, and how it sleeps.
 struct Rest {
     bool asleep = false;
+    Vec3f air = Vec3f::Zero();                     // velocity at its middle when it fell asleep [m/s]
     std::shared_ptr<const LastContacts> contacts;  // contacts with which it sleeps; null: none
     double still = 0;                              // time for which no point has moved far from `places` [s]
     VecX places;                                   // reference places of what its mechanics move, or of its modes [m]
-    Vec3 air = Vec3::Zero();                       // velocity at its middle when it fell asleep [m/s]
 };
 
 void wake(PlantBody& body);

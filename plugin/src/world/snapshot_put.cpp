@@ -88,7 +88,7 @@ void put_rest(World& world, SavedPlant& saved, PlantBody& body) {
     }
     rest.still = saved.still;
     rest.places = std::move(saved.places);
-    rest.air = saved.air;
+    rest.air = saved.air.cast<float>();
 }
 
 void put_rigid(const SavedRigid& saved, Rigid& rigid) {

@@ -59,7 +59,7 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     saved.asleep = body.rest.asleep;
     saved.still = body.rest.still;
     saved.places = body.rest.places;
-    saved.air = body.rest.air;
+    saved.air = body.rest.air.cast<double>();
     saved.level = body.level;
     if (body.rest.contacts)
         saved.asleep_with = take_touches(world, body.rest.contacts->with_bodies, body.rest.contacts->with_plants);
