@@ -37,15 +37,15 @@ struct Row {
 };
 const Row ROWS[] = {
     {"tets", "corn/corn.obj", FROND_MECHANICS_TET_COROTATIONAL, 1, 0, false, FROND_WIND_PROFILE_LOG, 6,
-     0x4b5eb49051bdc471, 0xd2c923e0252a7fff},
+     0x5301f0d090afe0e9, 0x6446932b6c02dc95},
     {"rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_POWER, 6, 0x12695d8569e73b26,
      0x66d3a1f9f913298d},
     {"neo_hookean", "wheat/wheat.obj", FROND_MECHANICS_TET_NEOHOOKEAN, 1, 0, false, FROND_WIND_PROFILE_LOG, 3,
-     0xf7bb6bb4bec3383a, 0x5859fb5e12fcf724},
+     0x81265ae4b3db7c82, 0x2d19b86786061e4c},
     {"twig", "urdf/sapling.urdf", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_LOG, 9, 0x28b0f534ecf3e7fc,
      0xccff5745ddabf1ac},
     {"ball_on_tets", "corn/corn.obj", FROND_MECHANICS_TET_COROTATIONAL, 1, 0, true, FROND_WIND_PROFILE_LOG, 0,
-     0x3f374b356f871b65, 0x3c8ca0055808d6c7},
+     0x9fba59864cb1a566, 0x44bcac10c445a3cd},
     {"ball_on_rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, true, FROND_WIND_PROFILE_LOG, 0, 0xedae8ba906997822,
      0x18650c9d933cd633},
     {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0xe120d4fc5346963b,

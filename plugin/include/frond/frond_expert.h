@@ -14,7 +14,7 @@ extern "C" {
 
 /* Wall clock of the last substep [ms]. */
 typedef struct frond_profile {
-    /* All of it, then its parts in the order in which they run. */
+    /* All of it, then its parts in the order in which they run, and the surfaces made since. */
     double ms_step, ms_collide, ms_effects, ms_assembly, ms_solve, ms_response, ms_capsules, ms_surface;
     /* The parts of ms_collide for plants with plants: broad phase, spatial hash, tests and depths. */
     double ms_broad, ms_hash, ms_narrow;

@@ -41,9 +41,13 @@ static void make_surface(PlantBody& body) {
         p.view.previous->substep = world.substep;
         p.view.previous->back = float(back);
     }
-    if (p.view.surface_positions.empty()) update_surface(*look_at(body).plant, FROND_EFFECT_ALL, back);
+    const auto update = [&](frond_effects effects) {
+        update_surface(*look_at(body).plant, effects, back);
+        p.view.surface_made = uint32_t(world.substep);
+    };
+    if (p.view.surface_positions.empty()) update(FROND_EFFECT_ALL);
     if ((p.view.surface_stale || p.view.surface_back != float(back)) && effects_of(body) & FROND_EFFECT_SURFACE)
-        update_surface(*look_at(body).plant, effects_of(body), back);
+        update(effects_of(body));
 }
 
 extern "C" {

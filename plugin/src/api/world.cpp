@@ -41,8 +41,9 @@ static int nearest_node(const Plant& plant, const Vec3& point) {
     return nearest;
 }
 
-static bool has_made_surface(const Plant& plant) {
-    return !plant.view.surface_stale && plant.ms_surface > 0;
+// Returns whether the plant's surface was made since the last substep.
+static bool has_made_surface(const World& world, const Plant& plant) {
+    return !plant.view.surface_stale && plant.view.surface_made == uint32_t(world.substep) && plant.ms_surface > 0;
 }
 
 // Completes the last substep's report by sums over the plants.
@@ -54,7 +55,7 @@ static frond_report full_report(const World& world) {
         const Plant& plant = *body->plant;
         report.node_count += node_count_of(plant);
         report.tet_count += int(plant.model->cage.tets.size());
-        if (has_made_surface(plant))
+        if (has_made_surface(world, plant))
             report.effects_run |= plant.input.effects & world.effects & (FROND_EFFECT_SURFACE | FROND_EFFECT_NORMALS);
     }
     return report;
@@ -64,8 +65,8 @@ static frond_profile full_profile(const World& world) {
     frond_profile profile = world.profile;
     for (const auto& body : world.bodies) {
         const Plant& plant = *body->plant;
+        if (!has_made_surface(world, plant)) continue;
         profile.ms_surface += plant.ms_surface;
-        if (!has_made_surface(plant)) continue;
         profile.ms_of_effect[3] += plant.ms_surface - plant.ms_normals;
         profile.ms_of_effect[4] += plant.ms_normals;
     }

@@ -8,6 +8,7 @@
 #include "mechanics/attachment_lanes.hpp"
 #include "mechanics/batch.hpp"
 #include "solve/integrator.hpp"
+#include "solve/springs.hpp"
 #include "solve/workspace.hpp"
 
 namespace frond {
@@ -138,6 +139,26 @@ struct FormPairs {
     }
 };
 
+// Copies numbers of a lane.
+void take_lane(const NumbersInLines& from, int lanes, int lane, VecX& to) {
+    to.resize(Eigen::Index(from.size()) / lanes);
+    for (Eigen::Index k = 0; k < to.size(); ++k) to[k] = from[size_t(k * lanes + lane)];
+}
+
+// Adds force and stiffness of a lane's taut fibres.
+void add_fibres(Batch& a, int lane, double step) {
+    const VecX x = linearized_end(a, lane);
+    VecX force;
+    take_lane(a.rhs, a.lanes, lane, force);
+    for (const Fibre& fibre : *a.fibres) {
+        add_fibre_force(fibre, x, force);
+        for_each_fibre_block(fibre, x, step * step, *a.A.pattern, [&](int slot, const Mat3& block) {
+            for (int n = 0; n < 9; ++n) a.A.values[size_t((9 * slot + n) * a.lanes + lane)] += block.data()[n];
+        });
+    }
+    for (Eigen::Index k = 0; k < force.size(); ++k) a.rhs[size_t(k * a.lanes + lane)] = force[k];
+}
+
 // The same for nodes that are positions only; drags act on points between them.
 struct FormPlaces {
     Batch& a;
@@ -181,6 +202,8 @@ struct FormPlaces {
                 store(S(load<S>(at) + constant<S>(mass * masses.slot[slot])), at);
             }
         }
+        for (int lane = 0; lane < a.lanes; ++lane)
+            if (a.with_fibres >> lane & 1) add_fibres(a, lane, step);
         for (int drag = 0; drag < int(a.system->chain.size()); ++drag) add_drag<S>(drag);
         for (int i = 0; i < count; ++i) {
             const Lanes3<S> dv =
@@ -251,6 +274,13 @@ bool may_be_batched(const System& system, const SolveSettings& settings, double 
     return system.row->batch && system.masses.lumped && settings.integrator == FROND_INTEGRATOR_BDF2 &&
            settings.linear_solver == FROND_LINEAR_SOLVER_BLOCK && settings.newton_iterations == 1 &&
            !settings.careful && !is_long_stage(system, h) && settings_are_sound(settings);
+}
+
+VecX linearized_end(const Batch& a, int lane) {
+    VecX base, v;
+    take_lane(a.x_base, a.lanes, lane, base);
+    take_lane(a.v_start, a.lanes, lane, v);
+    return base + a.reach * v;
 }
 
 int lanes_for(int count) {

@@ -17,7 +17,9 @@ struct Batch {
     NumbersInLines x, v, x_prev, v_prev;  // see Motion and History
     NumbersInLines gravity;               // [m/s^2]
     // Air drag at each chain node, which is a pair of nodes or a point of System::chain; zero: none.
-    NumbersInLines drag_force, drag_damping;  // three numbers [N], and xx, xy, xz, yy, yz, zz [N s/m]
+    NumbersInLines drag_force, drag_damping;     // three numbers [N], and xx, xy, xz, yy, yz, zz [N s/m]
+    unsigned with_fibres = 0;                    // lanes whose plants have taut fibres, a bit each
+    const std::vector<Fibre>* fibres = nullptr;  // of each of those plants
     // Out:
     NumbersInLines x_end, v_end;
     std::array<double, MOST_LANES> residual;
@@ -44,6 +46,8 @@ void make_room(Batch& batch, std::shared_ptr<const System> system, int lanes);
 // h_before is 0. Pinned nodes stay where they are. Returns a bit for each lane that has to be stepped alone.
 unsigned step_batch(Batch& batch, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,
                     double h_before);
+// Returns where a lane's fibres were linearized in the last step: its end, with the velocities before the solve.
+VecX linearized_end(const Batch& batch, int lane);
 // Computes |b - A x| / |b| of each lane; `left` is scratch.
 void relative_residuals(const BlockMatrix& A, const NumbersInLines& b, const NumbersInLines& x, NumbersInLines& left,
                         double* out);

@@ -13,6 +13,7 @@
 #include "core/timer.hpp"
 #include "mechanics/attachment_lanes.hpp"
 #include "mechanics/batch.hpp"
+#include "plant/fibres.hpp"
 #include "plant/guard.hpp"
 #include "solve/system.hpp"
 
@@ -157,10 +158,11 @@ void gather_motions(Batch& step, Plant* const* plants, int count, const Surround
     }
 }
 
-void take_loads(Plant& plant, const Batch& step, int lane) {
+void take_loads(Plant& plant, const Batch& step, int lane, frond_effects effects) {
     plant.step.loads.drags.clear();
     plant.step.loads.springs.clear();
     plant.step.loads.fibres = nullptr;
+    plant.step.has_fibres = effects & FROND_EFFECT_FIBRES;
     plant.step.loads.force.resize(0);
     for (int c = 0; c < 3; c++) plant.step.loads.gravity[c] = step.gravity[size_t(c * step.lanes + lane)];
 }
@@ -172,28 +174,46 @@ bool is_plausible(Plant& plant, const Batch& step, int lane, double h) {
     return plausible && !is_far_out(plant);
 }
 
-// Leaves in the plant all that solve_plant() leaves of a healthy step; `goes_on`: contacts move it from there. False,
-// with the motion unchanged: the plant has to be stepped alone.
-bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& settings, bool may_be_off, bool goes_on,
-               double h) {
+// Lanes whose plants need a look, a bit each.
+struct Looks {
+    unsigned off_course;  // they may have ended there
+    unsigned taut;        // a fibre is taut at the end, or nearly so
+    unsigned going_on;    // contacts move them from there
+};
+
+bool fibres_hold(Plant& plant, const Batch& step, int lane) {
+    if (!(step.with_fibres >> lane & 1)) return holds_for_fibres(plant, nullptr);
+    const VecX from = linearized_end(step, lane);
+    return holds_for_fibres(plant, &from);
+}
+
+// Leaves in the plant all that solve_plant() leaves of a healthy step. False, with the motion unchanged: the plant has
+// to be stepped alone.
+bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& settings, const Looks& looks,
+               frond_effects effects, double h) {
     const Batch& step = space.step;
+    const auto is_in = [&](unsigned bits) { return (bits >> lane & 1) != 0; };
     Motion& motion = plant.state.motion;
     History& history = motion.history;
     VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
-    const bool is_wound = (step.wound >> lane & 1) != 0;
-    const bool is_asked = may_be_off || is_wound || goes_on || may_inflate(plant) || step.inverted[size_t(lane)] > 0;
+    const bool has_fibres = is_in(step.with_fibres | looks.taut), goes_on = is_in(looks.going_on);
+    const bool is_asked = is_in(looks.off_course | looks.going_on | step.wound) || has_fibres || may_inflate(plant) ||
+                          step.inverted[size_t(lane)] > 0;
     if (is_asked) {
         plant.step.x_good = motion.x;
         plant.step.v_good = motion.v;
     }
     motion.x.swap(x);
     motion.v.swap(v);
-    take_loads(plant, step, lane);
+    take_loads(plant, step, lane, effects);
     plant.step.is_off_course = plant.step.starts_anew = false;
     plant.step.push = nullptr;
-    if (is_asked && !is_plausible(plant, step, lane, h)) {
+    plant.step.takes = 1;
+    const float stretched = plant.state.stretched;
+    if ((has_fibres && !fibres_hold(plant, step, lane)) || (is_asked && !is_plausible(plant, step, lane, h))) {
         motion.x.swap(x);
         motion.v.swap(v);
+        plant.state.stretched = stretched;
         return false;
     }
     if (!is_asked) {
@@ -237,10 +257,9 @@ void take_factors(const Batch& step, Plant* const* plants, unsigned which) {
 }
 
 // Leaves a plant ready for contacts, with its own drags.
-void go_on_alone(Plant& plant, const Batch& step, int lane, frond_effects effects) {
+void go_on_alone(Plant& plant, const Batch& step, int lane) {
     plant.state.blown.setZero();
     take_drags(step, lane, plant.step.loads.drags);
-    plant.step.has_fibres = effects & FROND_EFFECT_FIBRES;
     finish_solving(plant);
 }
 
@@ -264,32 +283,36 @@ void solve_in_lanes(Plant* const* plants, int count, int lanes, const Surroundin
     const unsigned bad_wind = gather_air(space->air, step, plants, count, surroundings, effects, h);
     const double ms_air = timer.lap();
 
+    step.with_fibres = effects & FROND_EFFECT_FIBRES
+                           ? find_lanes(plants, count, [](const Plant& plant) { return plant.state.stretched > 0; })
+                           : 0;
+    step.fibres = plants[0]->fibres ? &plants[0]->fibres->list : nullptr;
     const double h_before = plants[0]->step.looks_back ? plants[0]->state.motion.history.h : 0;
     unsigned alone = step_batch(step, settings, plants[0]->state.motion.pinned, h, h_before), far_away, off_course,
              whips;
     run_in_lanes(step.lanes,
                  LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course, whips});
     whips &= find_lanes(plants, count, [](const Plant& plant) { return plant.step.is_among_bodies && !waits(plant); });
-    alone |= far_away | whips | find_taut(step, *plants[0], effects);
+    alone |= far_away | whips;
     air_forces(step, space->forces);
     const unsigned may_yield = find_yielding(step, effects);
-    const unsigned going_on = find_lanes(plants, count, waits);
+    const Looks looks = {off_course, find_taut(step, *plants[0], effects), find_lanes(plants, count, waits)};
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
     run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
-    take_factors(step, plants, going_on & ~alone & ((1u << count) - 1));
+    take_factors(step, plants, looks.going_on & ~alone & ((1u << count) - 1));
     const double ms_solve = timer.lap();
 
     for (int lane = 0; lane < count; lane++) {
         Plant& plant = *plants[lane];
         const auto is_in = [&](unsigned bits) { return (bits >> lane & 1) != 0; };
-        if (is_in(alone) || !take_step(plant, *space, lane, settings, is_in(off_course), is_in(going_on), h)) {
+        if (is_in(alone) || !take_step(plant, *space, lane, settings, looks, effects, h)) {
             solve_plant(plant, surroundings, h);
             continue;
         }
         plant.trouble = is_in(bad_wind) ? FROND_TROUBLE_BAD_WIND : 0;
-        plant.step.may_yield = is_in(may_yield | going_on);
+        plant.step.may_yield = is_in(may_yield | looks.going_on);
         report_step(plant, step, lane, ms_air / count, ms_solve / count);
-        if (is_in(going_on)) go_on_alone(plant, step, lane, effects);
+        if (is_in(looks.going_on)) go_on_alone(plant, step, lane);
     }
     return_batch(*pool, space);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cage/tet_geometry.hpp"
+#include "mechanics/batch.hpp"
 #include "plant/follow.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
@@ -216,6 +217,13 @@ bool fibre_becomes_taut(const Plant& plant) {
         if (drawn(fibre, plant.step.x_good) <= 1) energy += fibre_energy(fibre, plant.state.motion.x);
     });
     return energy > none;
+}
+
+bool holds_for_fibres(Plant& plant, const VecX* from) {
+    const std::vector<Fibre>& list = plant.fibres->list;
+    if (from && !(miss_of_fibres(list, *from, plant.state.motion.x) <= NEARLY * no_matter(plant))) return false;
+    look_at_fibres(plant);
+    return !fibre_becomes_taut(plant);
 }
 
 void add_fibre_forces(const Plant& plant, const VecX& x, VecX& f) {

@@ -35,6 +35,9 @@ std::unique_ptr<FibreLoads> fibres_of(const Plant& plant);
 void look_at_fibres(Plant& plant);
 // Returns whether a fibre is taut after a solve that was slack before it, by energy that matters.
 bool fibre_becomes_taut(const Plant& plant);
+// Looks after a solve of one linear system, with fibres linearized at `from` or, if that is null, without fibres.
+// Returns whether it holds.
+bool holds_for_fibres(Plant& plant, const VecX* from);
 // Lets fibres of an entangled plant lengthen, as crossed leaves come apart only by being stretched, and shorten
 // afterwards: at once where they are slack, else slowly and as far as that stores no energy that matters; after a step
 // of h [s].

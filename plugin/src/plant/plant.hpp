@@ -155,6 +155,7 @@ struct PlantStep {
     Loads loads;                        // kept to reuse their memory
     VecX x_good, v_good;                // before the step; empty after a healthy batched one: in the history
     std::unique_ptr<ContactPush> push;  // null until contacts are known
+    double takes = 1;                   // share of pushes that its responses in this step take at most [-]
     std::unique_ptr<LoadWork> work;     // of an accepted step; null: nobody keeps account
     bool is_watched = false;            // near something that it may go through
     bool is_among_bodies = false;       // something that it is not swept against may be in its way
@@ -176,8 +177,9 @@ struct PlantView {
     mutable VecX cage_x;  // cage nodes if they are not the mechanics' own, model frame [m]
     mutable bool cage_stale = true;
     bool surface_stale = true;
-    float surface_back = 0;  // time before the end of the last substep at which the surface is drawn [s]
-    double lead = 0;         // time by which the drawn cage is extrapolated until the plant is stepped again [s]
+    uint32_t surface_made = 0;  // number of substeps when it was made
+    float surface_back = 0;     // time before the end of the last substep at which the surface is drawn [s]
+    double lead = 0;            // time by which the drawn cage is extrapolated until the plant is stepped again [s]
 };
 
 // The host always sees the cage's nodes. If the mechanics move the chain, the cage follows it.

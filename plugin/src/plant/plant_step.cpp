@@ -67,8 +67,6 @@ static bool is_sound(const Plant& plant) {
            !has_run_away(plant);
 }
 
-constexpr int ENOUGH = 10;  // Newton iterations, of which most steps take two to four
-
 // Solves the step again from its start, with fibres.
 static void solve_from_start(Plant& plant, const SolveSettings& settings, double h) {
     plant.state.motion.x = plant.step.x_good;
@@ -83,6 +81,7 @@ static void solve_from_start(Plant& plant, const SolveSettings& settings, double
 // more than the start, so the first and any later one is a step that can be taken.
 static void minimise(Plant& plant, frond_integrator method, double h, bool from_rest) {
     constexpr int ITERATIONS = 30;
+    constexpr double ROUGHLY = 0.001;  // residual over the first that is small in steps of one solve [-]
     // Evaluations of all forces: about the most that a search needs, of all searches of a step with contacts together,
     // and what each of those is granted in any case.
     constexpr int MOST_WORK = 400, LEAST_WORK = 100;
@@ -90,6 +89,7 @@ static void minimise(Plant& plant, frond_integrator method, double h, bool from_
     settings.most_work = is_pushed(plant) ? std::max(LEAST_WORK, MOST_WORK - plant.report.work) : MOST_WORK;
     settings.integrator = method;
     settings.from_rest = from_rest;
+    if (settings.newton_iterations == 1) settings.newton_tolerance = std::max(settings.newton_tolerance, ROUGHLY);
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
     plant.trouble |= FROND_TROUBLE_RETRIED;
@@ -110,7 +110,7 @@ static void stop_by_fibres(Plant& plant, double h) {
     const Timer timer;
     SolveSettings settings = plant.step.settings;
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
-    settings.newton_iterations = std::max(settings.newton_iterations, ENOUGH);
+    settings.newton_iterations = std::max(settings.newton_iterations, ENOUGH_SOLVES);
     solve_from_start(plant, settings, h);
     plant.state.motion.history.shaken = true;
     look_at_fibres(plant);
@@ -144,11 +144,11 @@ static void solve_again(Plant& plant, double h) {
         if (plant.report.ok && is_plausible(plant, h)) return;
     }
     plant.state.motion.history.valid = false;
-    minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, from_rest);
-    for (const double share : {0.25, 0.05, 0.0}) {
+    for (const double share : {1.0, 0.25, 0.05, 0.0}) {
+        if (share > plant.step.takes) continue;
+        if (is_pushed(plant)) plant.step.push->share = plant.step.takes = share;
+        minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, from_rest || share < 1);
         if (!is_pushed(plant) || !plant.report.ok || is_plausible(plant, h)) break;
-        plant.step.push->share = share;
-        minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, true);
     }
     if (was_solved && !plant.report.converged && way_of_step(plant).isZero(0)) {
         // The search found no way at all, and would find none in the next step: a part of what one solve gave is one.
@@ -171,7 +171,7 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects) {
     if (!(effects & FROND_EFFECT_DAMPING))
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
-    if (hold_several_places(plant)) settings.newton_iterations = std::max(settings.newton_iterations, ENOUGH);
+    if (hold_several_places(plant)) settings.newton_iterations = std::max(settings.newton_iterations, ENOUGH_SOLVES);
     // Contacts add their response to the linear solution first.
     settings.is_touched = plant.state.is_touched;
     return settings;
@@ -189,6 +189,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.view.lead = 0;
     plant.step.may_yield = true;
     plant.step.push = nullptr;
+    plant.step.takes = 1;
     plant.step.has_fibres = effects & FROND_EFFECT_FIBRES;
 
     // Effects.

@@ -19,8 +19,9 @@ struct SkinVertex {
 
 struct Skin {
     std::vector<SkinVertex> vertices;
-    std::vector<int> parents;  // begin of the capsule that ends at a chain node; the node itself at a root
-    std::vector<Vec3> axes;    // from there to the node, in the modelled shape [m]
+    std::vector<int> by_capsule;  // vertices in the order of their chain nodes
+    std::vector<int> parents;     // begin of the capsule that ends at a chain node; the node itself at a root
+    std::vector<Vec3> axes;       // from there to the node, in the modelled shape [m]
 };
 
 Skin make_skin(const Model& model);

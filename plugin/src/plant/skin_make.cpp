@@ -1,6 +1,9 @@
 // In: a model. Out: how its surface hangs on the capsules of its chain.
 #include "plant/skin.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "core/assert.hpp"
 
 namespace frond {
@@ -46,6 +49,10 @@ Skin make_skin(const Model& model) {
         skin.vertices.push_back({node, along, across, Vec3f::Zero()});
     }
     find_gradients(model.surface, skin.vertices);
+    skin.by_capsule.resize(skin.vertices.size());
+    std::iota(skin.by_capsule.begin(), skin.by_capsule.end(), 0);
+    std::stable_sort(skin.by_capsule.begin(), skin.by_capsule.end(),
+                     [&](int a, int b) { return skin.vertices[size_t(a)].node < skin.vertices[size_t(b)].node; });
     return skin;
 }
 

@@ -10,7 +10,8 @@
 // and the positive one leads beyond the bound, a line search takes over.
 // What springs pull taut from afar swings as fast in any step: it takes the exact stiffness too, and a line search
 // takes over wherever the solve leads beyond the bound.
-// Where the one solve misses the energy of taut fibres, which turned far or became taut or slack, others follow.
+// Where the one solve misses the energy of taut fibres, which turned far or became taut or slack, the stage is
+// solved on until one meets it, and is solved roughly.
 #include <algorithm>
 #include <cmath>
 
@@ -26,19 +27,18 @@ struct Newton : StageEquations {
     int iterations = 1;       // most Newton iterations
     bool is_long = false;     // the step is longer than the period of hanging parts, and has one solve
     bool is_pulled = false;   // springs pull at rods from afar, and the step has one solve
-    bool for_fibres = false;  // the step has one solve, and more if that misses fibres
+    bool for_fibres = false;  // the one solve missed their energy, and others follow
     bool skipped = false;     // the first solve was left to the line search
     int most_work = 0;        // limit of report.work; 0: none
 };
 
-// Returns by how much the energy of fibres after the first solve differs from what that took it for [J].
-double miss_of_fibres(Newton& n) {
-    set_positions(n, n.w.v_start);
+// Returns whether the last solve, of a system formed with those velocities, took the energy of fibres for what it is.
+bool meets_fibres(Newton& n, const VecX& v_before) {
+    set_positions(n, v_before);
     const VecX from = n.w.x;
     set_positions(n, n.w.v);
-    double miss = 0;
-    for_each_fibre(n.input.loads, [&](const Fibre& fibre) { miss += error_of_linearization(fibre, from, n.w.x); });
-    return miss;
+    const FibreLoads& fibres = *n.input.loads.fibres;
+    return miss_of_fibres(fibres.list, from, n.w.x) <= fibres.tolerance;
 }
 
 // Approximate cost of a factor, in evaluations of the forces.
@@ -191,6 +191,7 @@ constexpr double FAR = 1;
 
 // Does further solves until the residual is small against the first one, or changes reach the resolution of double.
 bool iterate(Newton& n, double first) {
+    constexpr double ROUGHLY = 0.01;  // residual over the first that is small where fibres are met [-]
     const SolveSettings& s = n.input.settings;
     Workspace& w = n.w;
     double change = n.skipped ? INFINITY : w.dv.cwiseAbs().maxCoeff() * n.stage.step;
@@ -200,14 +201,18 @@ bool iterate(Newton& n, double first) {
     n.report.ms_assembly += timer.lap();
     const double most = s.careful || n.is_pulled ? potential_at(n, w.v) : INFINITY;
     Tangent tangent = Tangent::exact;
+    VecX v_before;
     bool has_moved = !n.skipped;
+    double enough = s.newton_tolerance * first;
     for (int iteration = 1;; ++iteration) {
-        n.report.converged = norm <= s.newton_tolerance * first || change <= TINY * n.system.size;
+        n.report.converged = norm <= enough || change <= TINY * n.system.size;
         if (n.report.converged || iteration == n.iterations || is_spent(n)) return std::isfinite(norm);
         if (!find_direction(n, tangent, rhs)) return false;
         timer.lap();
         change = w.dv.cwiseAbs().maxCoeff() * n.stage.step;
+        if (n.for_fibres) v_before = w.v;
         const bool better = search_line(n, most, rhs, norm);
+        if (n.for_fibres && better && meets_fibres(n, v_before)) enough = std::max(enough, ROUGHLY * first);
         n.report.ms_assembly += timer.lap();
         // The exact stiffness may give a direction that does not descend; the positive one's does.
         if (!better && tangent == Tangent::positive) {
@@ -232,14 +237,12 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     n.rayleigh = workspace.damping_scale;
     n.iterations = stage.iterations > 0 ? stage.iterations : settings.newton_iterations;
     n.apart = !workspace.element_damping.empty();
-    n.for_fibres = input.loads.fibres && n.iterations == 1 && !settings.careful;
     n.is_pulled = system.row->moves_chain && input.loads.springs_are_far && n.iterations == 1;
     n.is_long = is_long_stage(system, stage.step) && n.iterations == 1;
     n.exact = n.is_long || n.is_pulled;
     n.keep_damping =
-        n.apart ||
-        (n.rayleigh > 0 && (n.iterations > 1 || n.for_fibres || n.exact || n.body.needs_search || settings.careful));
-    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.for_fibres && !n.exact && !settings.careful;
+        n.apart || (n.rayleigh > 0 && (n.iterations > 1 || n.exact || n.body.needs_search || settings.careful));
+    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.exact && !settings.careful;
     if (settings.careful && settings.most_work > 0) n.most_work = report.work + settings.most_work;
     workspace.v = workspace.v_start;
     follow_guides(n, workspace.v);
@@ -248,8 +251,11 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     const bool converged_before = report.converged;
     const double first = solve_first(n);
     if (first < 0) return false;
-    constexpr int FOR_FIBRES = 10;  // solves granted to a stage whose first one misses them
-    if (n.for_fibres && miss_of_fibres(n) > input.loads.fibres->tolerance) n.iterations = FOR_FIBRES;
+    if (n.iterations == 1 && input.loads.fibres && !meets_fibres(n, workspace.v_start)) {
+        n.for_fibres = true;
+        n.iterations = ENOUGH_SOLVES;
+        prepare_to_go_on(n);
+    }
     if (n.iterations > 1 && !iterate(n, first)) return false;
     report.converged &= converged_before;
     set_positions(n, workspace.v);

@@ -36,7 +36,7 @@ struct Fibre {
     double stiffness;  // [N/m]
 };
 
-// Those of a solve. A stage whose one solve misses their energy by more than the tolerance is solved to convergence.
+// Those of a solve. A stage whose one solve misses their energy by more than the tolerance is solved further.
 struct FibreLoads {
     std::vector<Fibre> list;
     double tolerance;  // [J]
@@ -49,6 +49,9 @@ struct Drag {
     Vec3 force;    // on the point at rest [N]
     Mat3 damping;  // symmetric, positive semi-definite [N s/m]
 };
+
+// Newton iterations granted where one is not enough; most steps take two to four.
+constexpr int ENOUGH_SOLVES = 10;
 
 // Settings of a step; the mechanics are the system's.
 struct SolveSettings {

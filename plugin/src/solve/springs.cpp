@@ -59,13 +59,20 @@ static Mat3 stiffness_between_ends(const Fibre& fibre, const Vec3& way) {
     return fibre.stiffness * (onto + over / length * (Mat3::Identity() - onto));
 }
 
-double error_of_linearization(const Fibre& fibre, const VecX& from, const VecX& to) {
+// Returns by how much the energy at `to` differs from that of the force and the stiffness at `from` [J].
+static double error_of_linearization(const Fibre& fibre, const VecX& from, const VecX& to) {
     const Vec3 before = way_along(fibre, from), change = way_along(fibre, to) - before;
     const double over = before.norm() - fibre.length;
     if (!(over > 0)) return fibre_energy(fibre, to);
     const double first = fibre.stiffness * over * before.normalized().dot(change),
                  second = 0.5 * change.dot(stiffness_between_ends(fibre, before) * change);
     return std::abs(fibre_energy(fibre, to) - fibre_energy(fibre, from) - first - second);
+}
+
+double miss_of_fibres(const std::vector<Fibre>& fibres, const VecX& from, const VecX& to) {
+    double miss = 0;
+    for (const Fibre& fibre : fibres) miss += error_of_linearization(fibre, from, to);
+    return miss;
 }
 
 void add_fibre_force(const Fibre& fibre, const VecX& x, VecX& f) {
@@ -78,6 +85,11 @@ void add_fibre_force(const Fibre& fibre, const VecX& x, VecX& f) {
 }
 
 void add_fibre_stiffness(const Fibre& fibre, const VecX& x, double scale, BlockMatrix& A) {
+    for_each_fibre_block(fibre, x, scale, *A.pattern, [&](int slot, const Mat3& block) { A.block(slot) += block; });
+}
+
+void for_each_fibre_block(const Fibre& fibre, const VecX& x, double scale, const BlockPattern& pattern,
+                          const std::function<void(int slot, const Mat3& block)>& add_block) {
     const Vec3 way = way_along(fibre, x);
     if (!(way.norm() > fibre.length)) return;
     const Mat3 stiffness = scale * stiffness_between_ends(fibre, way);
@@ -99,7 +111,7 @@ void add_fibre_stiffness(const Fibre& fibre, const VecX& x, double scale, BlockM
     add(fibre.begin, -1);
     add(fibre.end, 1);
     for (size_t a = 0; a < count; a++)
-        for (size_t b = 0; b <= a; b++) A.block(A.pattern->slot(node[a], node[b])) += weight[a] * weight[b] * stiffness;
+        for (size_t b = 0; b <= a; b++) add_block(pattern.slot(node[a], node[b]), weight[a] * weight[b] * stiffness);
 }
 
 }  // namespace frond

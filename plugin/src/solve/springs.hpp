@@ -1,6 +1,8 @@
 // Springs between points of a plant and fixed targets, and fibres between two of its points: energy, force, stiffness.
 #pragma once
 
+#include <functional>
+
 #include "solve/system.hpp"
 
 namespace frond {
@@ -15,10 +17,13 @@ void add_spring_stiffness(const std::vector<Spring>& springs, const VecX& x, Tan
 double drawn(const Fibre& fibre, const VecX& x);
 double fibre_energy(const Fibre& fibre, const VecX& x);
 void add_fibre_force(const Fibre& fibre, const VecX& x, VecX& f);
-// Adds the exact stiffness, which is positive as a fibre only pulls.
+// Adds the exact stiffness, which is positive as a fibre only pulls; or calls `add` for its blocks and their slots in a
+// matrix of that pattern.
 void add_fibre_stiffness(const Fibre& fibre, const VecX& x, double scale, BlockMatrix& A);
-// Returns by how much the energy at `to` differs from that of the force and the stiffness at `from` [J].
-double error_of_linearization(const Fibre& fibre, const VecX& from, const VecX& to);
+void for_each_fibre_block(const Fibre& fibre, const VecX& x, double scale, const BlockPattern& pattern,
+                          const std::function<void(int slot, const Mat3& block)>& add);
+// Returns by how much the energy of fibres at `to` differs from that of their forces and stiffness at `from` [J].
+double miss_of_fibres(const std::vector<Fibre>& fibres, const VecX& from, const VecX& to);
 // Calls `use` for each fibre of a solve.
 template <class Use>
 void for_each_fibre(const Loads& loads, const Use& use) {

@@ -50,6 +50,15 @@ const VecX& linearized_from(const StageEquations& e) {
     return &e.stage.x_from == &start || is_calm(e.system, start, e.stage.x_from) ? e.stage.x_from : start;
 }
 
+// Adds force, positive stiffness, and damping that is not a multiple of that.
+static void assemble(StageEquations& e, const VecX& from) {
+    Workspace& w = e.w;
+    if (e.apart) w.damping.set_zero();
+    e.report.inverted = e.apart ? e.body.add_force_stiffness_and_damping(*w.elements, from, w.element_damping,
+                                                                         w.elastic, w.A, w.damping)
+                                : e.body.add_force_and_stiffness(*w.elements, from, Tangent::positive, w.elastic, w.A);
+}
+
 void linearize_at_start(StageEquations& e) {
     Workspace& w = e.w;
     const VecX& from = linearized_from(e);
@@ -63,13 +72,7 @@ void linearize_at_start(StageEquations& e) {
             w.elastic, w.A);
         return start_residual(e, w.v, w.rhs);
     }
-    if (e.apart) {
-        w.damping.set_zero();
-        e.report.inverted =
-            e.body.add_force_stiffness_and_damping(*w.elements, from, w.element_damping, w.elastic, w.A, w.damping);
-    } else {
-        e.report.inverted = e.body.add_force_and_stiffness(*w.elements, from, Tangent::positive, w.elastic, w.A);
-    }
+    assemble(e, from);
     const bool is_multiple = !e.apart && !e.exact;  // the damping is a multiple of this stiffness
     if (!e.apart && (e.exact || e.keep_damping)) w.damping = w.A;
     if (e.exact) {
@@ -83,6 +86,15 @@ void linearize_at_start(StageEquations& e) {
     if (is_multiple) return;
     w.damping.multiply(w.v, w.product);
     w.rhs -= e.stage.step * e.rayleigh * w.product;
+}
+
+void prepare_to_go_on(StageEquations& e) {
+    e.at_once = false;
+    if (!e.apart && !(e.rayleigh > 0)) return;
+    e.keep_damping = true;
+    e.w.A.set_zero();
+    assemble(e, linearized_from(e));
+    if (!e.apart) e.w.damping = e.w.A;
 }
 
 double residual_at(StageEquations& e, const VecX& v, VecX& rhs) {

@@ -30,6 +30,8 @@ void set_positions(const StageEquations& equations, const VecX& v);
 const VecX& linearized_from(const StageEquations& equations);
 // Computes force and stiffness at those, extrapolated to the end of the stage with the velocities known so far.
 void linearize_at_start(StageEquations& equations);
+// Readies equations that were to be solved once for further solves: they need the damping.
+void prepare_to_go_on(StageEquations& equations);
 // Computes the residual at the end of the stage with velocities v and returns its norm.
 double residual_at(StageEquations& equations, const VecX& v, VecX& rhs);
 // Returns the stage's potential: minus its gradient by v is the residual.
