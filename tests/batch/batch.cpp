@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 
 #include "core/lanes.hpp"
@@ -179,6 +180,41 @@ TEST_P(BatchedPlants, GoAsAlone) {
     EXPECT_GT(together.batched, is_calm ? steps * (lanes == 2 ? 9 : 8) : 40);
     EXPECT_GT(together.alone, 11);
     EXPECT_EQ(apart.batched, 0);
+}
+
+// Returns a blade of 0.3 mm, whose cage is too soft in tension.
+std::shared_ptr<const Model> thin_blade() {
+    Surface surface;
+    add_sheet(surface, 2, 30, [](double s, double t) { return Vec3(0, 0.6 * t, (s - 0.5) * 0.05); });
+    surface.parts[0].name = "blade";
+    const frond_organ_material organ = {"blade", plain_material(900, 2e9, 0.3, 3e-4)};
+    frond_model_def def = model_def();
+    def.cage_size = 0.05;
+    def.rest = FROND_REST_WITHOUT_GRAVITY;
+    def.organs = &organ;
+    def.organ_count = 1;
+    return build_from_surface(std::move(surface), def);
+}
+
+// In a wind a blade's fibres stay taut for long.
+TEST(PlantBatch, HaveTautFibresAsAlone) {
+    const auto model = thin_blade();
+    Field together(model, 8, 5, FROND_MECHANICS_TET_COROTATIONAL), apart(model, 8, 5, FROND_MECHANICS_TET_COROTATIONAL);
+    int taut = 0, batched_taut = 0;
+    for (int step = 0; step < 150; ++step) {
+        std::vector<size_t> with_fibres;
+        for (size_t i = 0; i < together.plants.size(); i++)
+            if (together.plants[i]->state.stretched > 0) with_fibres.push_back(i);
+        together.step(true);
+        apart.step(false);
+        taut += int(with_fibres.size());
+        for (const size_t i : with_fibres) batched_taut += together.plants[i]->report.ms_assembly == 0;
+        for (size_t i = 0; i < together.plants.size(); i++) expect_same(*together.plants[i], *apart.plants[i]);
+        if (HasFatalFailure()) FAIL() << "step " << step;
+    }
+    EXPECT_GT(taut, 300);
+    EXPECT_GT(batched_taut, taut / 8);
+    std::printf("%d of %d plants with taut fibres in batches\n", batched_taut, taut);
 }
 
 // A host's wind field that varies with position.

@@ -127,6 +127,27 @@ TEST_P(Sleep, ComesNotWhileAPlantSways) {
 }
 
 // Each cause wakes a sleeping plant, and that one only.
+// A surface that a plant keeps is no work of the steps in which it sleeps.
+TEST(Sleep, CostsNoSurfaces) {
+    ForkedStems field;
+    const frond_plant plant = field.add(0);
+    const auto ms_of_surface = [&] {
+        field.steps(1);
+        frond_surface_view view = {};
+        must(frond_plant_get_surface(plant, &view));
+        frond_profile profile = {};
+        must(frond_world_get_profile(field.world, &profile));
+        const bool is_told = (field.report().effects_run & FROND_EFFECT_SURFACE) != 0;
+        EXPECT_EQ(is_told, profile.ms_surface > 0);
+        return profile.ms_surface;
+    };
+    field.pull(plant, 5);
+    EXPECT_GT(ms_of_surface(), 0);
+    ASSERT_TRUE(field.rests_within(30));
+    ms_of_surface();
+    EXPECT_EQ(ms_of_surface(), 0);
+}
+
 TEST(Wake, ComesFromAllThatMovesAPlant) {
     ForkedStems stand;
     const frond_plant plant = stand.add(0), other = stand.add(2);

@@ -59,7 +59,8 @@ enum {
     FROND_TROUBLE_HELD_BACK = 1 << 5,
     /* Cause: a plant had more than 100 contacts with plants, as where cages were made in each other, or so much crossed
      * within a step that no response could account for all of it. Effect: the deepest 100 contacts push, or those that
-     * meet first. Remedy: FROND_COLLISION_ORGANS, which touches at fewer places; shorter steps. */
+     * meet first; a kinematic body that crowds plants goes through them, untouched until their boxes are apart. Remedy:
+     * FROND_COLLISION_ORGANS, which touches at fewer places; shorter steps; a slower or smaller body. */
     FROND_TROUBLE_CROWDED = 1 << 6,
     /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
      * there for the step. Remedy: have the function of frond_world_set_wind_field write every velocity. */

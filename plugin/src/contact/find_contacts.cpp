@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "contact/contact_body.hpp"
+#include "contact/let_through.hpp"
 #include "contact/piece.hpp"
 #include "contact/plate.hpp"
 #include "contact/sweep.hpp"
@@ -29,7 +30,8 @@ bool takes_part(const World& world, const PlantBody* body) {
 }
 
 bool may_collide(const PlantBody& body, const btCollisionObject& object) {
-    return body.btSoftBody::checkCollideWithOverride(&object) && object.checkCollideWith(&body);
+    return !lets_through(body, object) && body.btSoftBody::checkCollideWithOverride(&object) &&
+           object.checkCollideWith(&body);
 }
 
 bool slides(const btCollisionObject& object) {
@@ -117,7 +119,9 @@ void add_manifold(World& world, const btPersistentManifold& manifold, double h, 
     const bool plant_first = body != nullptr;
     if (!body) body = PlantBody::of(second);
     btCollisionObject* other = plant_first ? second : first;
-    if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other) || is_plane(*other)) return;
+    if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other) || is_plane(*other) ||
+        lets_through(*body, *other))
+        return;
     if (body->rest.asleep && !is_moving(*other)) return;
     // Modal plants are only checked for touch: their last pose is near enough.
     if (!body->plant->state.modal) look_at(*body);
@@ -272,6 +276,7 @@ static void drop_what_is_inside(std::vector<Contact>& contacts) {
 }
 
 std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& last, double h) {
+    touch_again(world);
     std::vector<Contact> contacts;
     btDispatcher* dispatcher = world.bullet->getDispatcher();
     for (int i = 0; i < dispatcher->getNumManifolds(); i++) {

@@ -146,11 +146,6 @@ bool add_missed(const std::vector<StripPath>& paths, const Miss& miss, double Pl
     return true;
 }
 
-// Returns whether a kinematic body moves there. What rests in a plant parts from it slowly, as any other body.
-bool is_carried_on(const Contact& contact) {
-    return contact.other->isKinematicObject() && !velocity_at(*contact.other, contact.on_other).isZero(0);
-}
-
 // Returns by how much a plant is still in the way of a body, once both are pushed, at the end of the step [m].
 double behind(const Contact& contact, double h) {
     const Plant& plant = *contact.plant->plant;
@@ -171,6 +166,10 @@ bool ask_for_more(Contact& contact, double h) {
 }
 
 }  // namespace
+
+bool is_carried_on(const Contact& contact) {
+    return contact.other->isKinematicObject() && !velocity_at(*contact.other, contact.on_other).isZero(0);
+}
 
 double least_miss(const PlantBody& body, int capsule) {
     constexpr double NO_MATTER = 0.001, SHARE = 0.3;  // [m], over the radius [-]

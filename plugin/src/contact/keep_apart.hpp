@@ -25,6 +25,8 @@ struct Missed {
 };
 // Returns how deep a body goes into a segment before that counts as missed [m].
 double least_miss(const PlantBody& body, int capsule);
+// Returns whether a kinematic body moves there. What rests in a plant parts from it slowly, as any other body.
+bool is_carried_on(const Contact& contact);
 // Looks at the ways that watched plants went with the contacts that are known. Where strips, or bodies, went through
 // them, or nearly, it adds contacts or has those that are known ask for more.
 Missed find_missed_contacts(World& world, double h, const Answers& answers);

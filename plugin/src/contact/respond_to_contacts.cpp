@@ -12,6 +12,7 @@
 #include "contact/coupled_rows.hpp"
 #include "contact/foresee.hpp"
 #include "contact/keep_apart.hpp"
+#include "contact/let_through.hpp"
 #include "contact/part_plants.hpp"
 #include "contact/stop_asking.hpp"
 #include "contact/strip_search.hpp"
@@ -165,8 +166,9 @@ static void take_back(Waiting& waiting, size_t i) {
 
 namespace {
 
-// Couplings of an island after which it gets no more responses in a step, which take as long as there are couplings.
-constexpr double MOST_COUPLINGS = 5e5;
+// Couplings of an island after which it gets no more responses in a step, which take as long as there are couplings;
+// fewer where plants can let kinematic bodies through.
+constexpr double MOST_COUPLINGS = 5e5, MOST_WITH_LED = 1e5;
 
 // The responses of a step, island by island.
 struct Responses {
@@ -195,6 +197,11 @@ Given* standing_answer(Responses& all, const std::vector<int>& given_of, const C
     };
     if (std::any_of(island.plants.begin(), island.plants.end(), differs)) return nullptr;
     return given.plants.size() == island.plants.size() && given.contacts == contacts_of(island) ? &given : nullptr;
+}
+
+void let_led_through(const std::vector<Contact*>& contacts) {
+    for (const Contact* contact : contacts)
+        if (is_carried_on(*contact)) let_through(*contact->plant, *contact->other);
 }
 
 // Answers the islands that have no standing answer.
@@ -230,7 +237,10 @@ void respond_again(World& world, const ResponseRow& response, double h, Waiting&
         to.couplings = couplings + squared(double(to.rows.size()));
     });
     for (const size_t i : open) {
-        const bool is_last = given[i].couplings > MOST_COUPLINGS;
+        const std::vector<Contact*>& contacts = islands[i].with_bodies;
+        const bool is_led = std::any_of(contacts.begin(), contacts.end(), [](Contact* c) { return is_carried_on(*c); });
+        const bool is_last = given[i].couplings > (is_led ? MOST_WITH_LED : MOST_COUPLINGS);
+        if (is_last) let_led_through(contacts);
         for (PlantBody* body : given[i].plants) {
             if (is_last) note_trouble(world, *body, FROND_TROUBLE_CROWDED);
             all.answers[size_t(body->number)] = is_last ? Answer::last : Answer::fresh;

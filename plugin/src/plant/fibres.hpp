@@ -3,8 +3,8 @@
 // 0.3 mm in cells of 24 mm it is the 1/6400th part.
 //
 // Fibres lie along capsules, and are slack up to a small stretch, so small motions, the rest shape and the fit of the
-// cage are unaffected. A step that begins with a taut one is solved with all of them, to convergence if one solve
-// misses their energy.
+// cage are unaffected. A step that begins with a taut one is solved with all of them, further if one solve misses
+// their energy.
 #pragma once
 
 #include "solve/solve.hpp"

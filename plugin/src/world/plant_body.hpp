@@ -23,6 +23,8 @@ struct Rigid;
 
 // Overlaps of a new plant with bodies at rest, such as ground and pots, which do not push it out: depth by capsule,
 // body and the body's number in the broad phase, which distinguishes it from a later one at the same address [m].
+// A plant as a whole also lets bodies through (contact/let_through.hpp).
+constexpr int WHOLE_PLANT = -1;
 using GrownIn = std::map<std::tuple<int, const btCollisionObject*, int>, double>;
 
 // Collision shapes that all plants of a model share in a world. A capsule is narrower than its blade and far thicker,

@@ -234,7 +234,7 @@ void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_c
                   "plants");
     check_numbers(saved.air, "plants");
     for (const SavedGrownIn& grown_in : saved.grown_in) {
-        check_index(grown_in.capsule, body.capsules().size(), "ground");
+        if (grown_in.capsule != WHOLE_PLANT) check_index(grown_in.capsule, body.capsules().size(), "ground");
         check_index(grown_in.other, object_count, "ground");
         if (!(grown_in.depth >= 0)) damaged("ground");
     }

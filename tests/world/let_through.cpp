@@ -1,0 +1,111 @@
+// A car-sized kinematic box that drives through corn: the plants are pushed, let it through before a step gets
+// expensive, and stand as before afterwards.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/stand.hpp"
+
+namespace let_through_tests {
+
+using frond::test::must;
+using frond::test::Stand;
+
+constexpr double H = 1.0 / 60, SPEED = 20, FAR_OFF = 4;  // [s], [m/s], [m]
+
+struct Crash : Stand {
+    frond_rigid box = {};
+    frond_rigid_state at = {};
+    uint32_t trouble = 0;
+    int most_contacts = 0;
+    double most_drawn = 0;  // length of a capsule over its first one [-]
+    std::vector<double> lengths;
+
+    explicit Crash(int count) {
+        load_corn();
+        for (int i = 0; i < count; i++) add(plant_def(), {0.6 * i, 0, i % 2 * 0.5}, 0.7 * i);
+        frond_rigid_def def = frond_default_rigid_def();
+        def.shape = FROND_SHAPE_BOX;
+        def.size = {2.25, 0.75, 0.9};
+        def.mass = 0;
+        def.state.position = {-FAR_OFF, 0.9, 0};
+        at = def.state;
+        must(frond_rigid_create(world, &def, &box));
+        lengths = lengths_now();
+    }
+    std::vector<double> lengths_now() const {
+        std::vector<double> all;
+        for (const frond_plant plant : plants) {
+            std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
+            must(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())));
+            for (const auto& [begin, end, radius] : capsules)
+                all.push_back(std::hypot(end.x - begin.x, end.y - begin.y, end.z - begin.z));
+        }
+        return all;
+    }
+    void drive(double speed) {
+        at.position.x += speed * H;
+        must(frond_rigid_set_state(box, &at));
+        steps(1);
+        trouble |= report().trouble;
+        int contacts = 0;
+        for (const frond_plant plant : plants) contacts += frond_plant_get_contact_count(plant);
+        most_contacts = std::max(most_contacts, contacts);
+        const std::vector<double> now = lengths_now();
+        for (size_t i = 0; i < now.size(); i++) most_drawn = std::max(most_drawn, now[i] / lengths[i]);
+    }
+    uint64_t hash() const {
+        uint64_t hash = 0;
+        must(frond_world_get_state_hash(world, &hash));
+        return hash;
+    }
+    double tip(size_t plant) const {
+        frond_vec3 tip = {};
+        must(frond_plant_get_tip(plants[plant], &tip));
+        return tip.y;
+    }
+};
+
+TEST(LetThrough, ACarDrivesThroughCornThatStandsAfterwards) {
+    Crash crash(4);
+    std::vector<double> tips;
+    for (size_t i = 0; i < crash.plants.size(); i++) tips.push_back(crash.tip(i));
+    while (crash.at.position.x < FAR_OFF + 2) crash.drive(SPEED);
+    EXPECT_TRUE(crash.trouble & FROND_TROUBLE_CROWDED);
+    EXPECT_TRUE(crash.trouble & FROND_TROUBLE_PASSED);
+    std::printf("at most %d contacts, capsules of %.3f their length\n", crash.most_contacts, crash.most_drawn);
+    EXPECT_LT(crash.most_contacts, 900);
+    EXPECT_LT(crash.most_drawn, 4);
+    crash.steps(240);
+    for (size_t i = 0; i < tips.size(); i++) EXPECT_NEAR(crash.tip(i), tips[i], 0.1) << i;
+}
+
+TEST(LetThrough, WhatHasPassedIsTouchedAgain) {
+    Crash crash(4);
+    while (crash.at.position.x < FAR_OFF + 2) crash.drive(SPEED);
+    crash.steps(60);
+    int touched = 0;
+    while (crash.at.position.x > FAR_OFF + 0.25) {
+        crash.drive(-1);
+        touched += frond_plant_get_contact_count(crash.plants.back()) > 0;
+    }
+    EXPECT_GT(touched, 10);
+}
+
+TEST(LetThrough, IsKeptBySnapshots) {
+    Crash crash(3);
+    while (!(crash.trouble & FROND_TROUBLE_CROWDED)) crash.drive(SPEED);
+    for (int i = 0; i < 2; i++) crash.drive(SPEED);
+    std::vector<char> bytes(frond_world_get_snapshot_size(crash.world));
+    must(frond_world_save(crash.world, bytes.data(), bytes.size()));
+    const frond_rigid_state there = crash.at;
+    for (int i = 0; i < 10; i++) crash.drive(SPEED);
+    const uint64_t hash = crash.hash();
+    must(frond_world_restore(crash.world, bytes.data(), bytes.size()));
+    crash.at = there;
+    for (int i = 0; i < 10; i++) crash.drive(SPEED);
+    EXPECT_EQ(crash.hash(), hash);
+}
+
+}  // namespace let_through_tests
