@@ -6,6 +6,7 @@
 
 #include "collide/strip_cull.hpp"
 #include "contact/contact_body.hpp"
+#include "contact/let_through.hpp"
 #include "contact/piece.hpp"
 #include "contact/strip_search.hpp"
 #include "world/trouble.hpp"
@@ -205,12 +206,14 @@ Missed add_missed_contacts(World& world, double PlantContact::*lacking, const An
     return missed;
 }
 
-void tell_what_is_behind(World& world, double h) {
+void tell_what_is_behind(World& world, double h, const Answers& answers) {
     // Beyond a stem's axis, a thin body is on its other side.
     for (const Contact& contact : world.contacts)
         if (is_carried_on(contact) && has_step(*contact.plant) &&
-            behind(contact, h) > radius_of(*contact.plant, contact.capsule))
+            behind(contact, h) > radius_of(*contact.plant, contact.capsule)) {
             note_trouble(world, *contact.plant, FROND_TROUBLE_PASSED);
+            if (stands(*contact.plant, answers, Answer::last)) let_through(*contact.plant, *contact.other);
+        }
 }
 
 std::vector<PlantBody*> find_crossing_plants(World& world, double h, bool by_plants) {

@@ -33,8 +33,9 @@ Missed find_missed_contacts(World& world, double h, const Answers& answers);
 // Does so where plants went through plants, or nearly. `lacking`: of what the contacts ask for more. Null: all plants
 // are looked at.
 Missed add_missed_contacts(World& world, double PlantContact::*lacking, const Answers* answers);
-// Reports plants that a kinematic body has come past, whatever was asked of their contacts.
-void tell_what_is_behind(World& world, double h);
+// Reports plants that a kinematic body has come past, whatever was asked of their contacts. Those whose island gets no
+// more responses let it through.
+void tell_what_is_behind(World& world, double h, const Answers& answers);
 // Returns the plants that go through bodies that move fast, or, if asked, through each other, on their ways in the
 // step; some twice.
 std::vector<PlantBody*> find_crossing_plants(World& world, double h, bool by_plants);

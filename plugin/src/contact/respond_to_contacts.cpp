@@ -12,7 +12,6 @@
 #include "contact/coupled_rows.hpp"
 #include "contact/foresee.hpp"
 #include "contact/keep_apart.hpp"
-#include "contact/let_through.hpp"
 #include "contact/part_plants.hpp"
 #include "contact/stop_asking.hpp"
 #include "contact/strip_search.hpp"
@@ -199,11 +198,6 @@ Given* standing_answer(Responses& all, const std::vector<int>& given_of, const C
     return given.plants.size() == island.plants.size() && given.contacts == contacts_of(island) ? &given : nullptr;
 }
 
-void let_led_through(const std::vector<Contact*>& contacts) {
-    for (const Contact* contact : contacts)
-        if (is_carried_on(*contact)) let_through(*contact->plant, *contact->other);
-}
-
 // Answers the islands that have no standing answer.
 void respond_again(World& world, const ResponseRow& response, double h, Waiting& waiting, Responses& all) {
     const std::vector<ContactIsland> islands = find_contact_islands(world);
@@ -240,7 +234,6 @@ void respond_again(World& world, const ResponseRow& response, double h, Waiting&
         const std::vector<Contact*>& contacts = islands[i].with_bodies;
         const bool is_led = std::any_of(contacts.begin(), contacts.end(), [](Contact* c) { return is_carried_on(*c); });
         const bool is_last = given[i].couplings > (is_led ? MOST_WITH_LED : MOST_COUPLINGS);
-        if (is_last) let_led_through(contacts);
         for (PlantBody* body : given[i].plants) {
             if (is_last) note_trouble(world, *body, FROND_TROUBLE_CROWDED);
             all.answers[size_t(body->number)] = is_last ? Answer::last : Answer::fresh;
@@ -293,7 +286,7 @@ void respond_to_contacts(World& world, double h) {
         take_back_from_rewound(of);
         if (world.ledger) count_work_of_bodies(world, of.rows, of.impulses);
     }
-    tell_what_is_behind(world, h);
+    tell_what_is_behind(world, h, all.answers);
     for (const Given& of : all.given) foresee(world, of.rows, h);
     part_plants(world, h, waiting.touched);
     for (Given& of : all.given)
