@@ -68,6 +68,9 @@ void fall_asleep(World& world, PlantBody& body) {
     for (const PlantContact& contact : world.plant_contacts)
         if (contact.plants[0] == &body || contact.plants[1] == &body) contacts->with_plants.push_back(contact);
     if (!contacts->with_bodies.empty() || !contacts->with_plants.empty()) body.rest.contacts = std::move(contacts);
+    // Nobody would see that a body which it lets through has left, and that comes back.
+    if (body.grown_in)
+        body.grown_in->erase(body.grown_in->begin(), body.grown_in->lower_bound({WHOLE_PLANT + 1, nullptr, 0}));
     body.rest.asleep = true;
     body.rest.still = 0;
     body.rest.air.setZero();
