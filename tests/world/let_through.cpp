@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "frond/frond_snapshot.h"
 #include "support/stand.hpp"
 
 namespace let_through_tests {
