@@ -3,7 +3,7 @@
 // Each mode is an oscillator displaced by the air's push, solved exactly over the time for which the push is taken as
 // constant; so it can be updated rarely and drawn at any time. The modes' rotations turn the segments of the chain,
 // which keep their lengths however far it bends. The part of the chain's shape that the modes cannot represent blends
-// out.
+// out as turns and strains of segments, too: as displacements it would draw them out.
 #include "plant/modal.hpp"
 
 #include <cmath>
@@ -51,32 +51,60 @@ State state_of(const ModalMotion& modal, size_t k) {
                  modal.since);
 }
 
-// Finds positions and rotations of the chain from modal coordinates.
-void bend_chain(const Plant& plant, const std::array<double, 2>& at, VecX& x) {
+// A chain in its own terms: rotations of its nodes, places of roots, and of any other node by how much its segment's
+// chord differs from the modelled one, in the frame midway between its ends' rotations. A sum of such terms bends a
+// chain, and a sum of places stretches it.
+VecX terms_of(const Plant& plant, const VecX& x) {
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
     const VecX& modelled = elements_of(*plant.system).modelled;
-    x = modelled;
+    VecX terms = x;
+    for (int i = 0; i < int(nodes.size()); i++) {
+        const int parent = nodes[size_t(i)].parent;
+        if (parent < 0) continue;
+        const Vec3 turn = 0.5 * (point(x, 2 * parent + 1) + point(x, 2 * i + 1));
+        point(terms, 2 * i) = rotation_of<double>(turn).transpose() * (point(x, 2 * i) - point(x, 2 * parent)) -
+                              (point(modelled, 2 * i) - point(modelled, 2 * parent));
+    }
+    return terms;
+}
+
+VecX modelled_terms(const Plant& plant) {
+    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
+    VecX terms = elements_of(*plant.system).modelled;
+    for (int i = 0; i < int(nodes.size()); i++)
+        if (nodes[size_t(i)].parent >= 0) point(terms, 2 * i).setZero();
+    return terms;
+}
+
+// Returns the positions and rotations of the chain with such terms.
+VecX chain_of(const Plant& plant, const VecX& terms) {
+    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
+    const VecX& modelled = elements_of(*plant.system).modelled;
+    VecX x = terms;
+    for (int i = 0; i < int(nodes.size()); i++) {
+        const int parent = nodes[size_t(i)].parent;
+        if (parent < 0) continue;
+        const Vec3 turn = 0.5 * (point(x, 2 * parent + 1) + point(x, 2 * i + 1));
+        const Vec3 chord = point(modelled, 2 * i) - point(modelled, 2 * parent) + point(terms, 2 * i);
+        point(x, 2 * i) = point(x, 2 * parent) + rotation_of<double>(turn) * chord;
+    }
+    return x;
+}
+
+// Returns how `of` changes where x moves by v.
+template <class Of>
+VecX rate_of(const Plant& plant, const Of& of, const VecX& x, const VecX& v) {
+    constexpr double SHORT = 1e-5;  // [s]
+    return (of(plant, x + SHORT * v) - of(plant, x - SHORT * v)) / (2 * SHORT);
+}
+
+// Adds what the modes turn, times the factors given.
+void add_turns(const Plant& plant, const std::array<double, 2>& factors, VecX& terms) {
     for (size_t k = 0; k < 2; k++) {
         const VecX& shape = plant.state.modal->modes->modes[k].shape;
         if (shape.size() == 0) continue;
-        for (int i = 1; i < x.size() / 3; i += 2) point(x, i) += at[k] * point(shape, i);
+        for (int i = 1; i < terms.size() / 3; i += 2) point(terms, i) += factors[k] * point(shape, i);
     }
-    for (size_t i = 0; i < nodes.size(); i++) {
-        const int parent = nodes[i].parent;
-        if (parent < 0) continue;
-        const Vec3 turn = 0.5 * (point(x, 2 * parent + 1) + point(x, int(2 * i + 1)));
-        point(x, int(2 * i)) = point(x, 2 * parent) +
-                               rotation_of<double>(turn) * (point(modelled, int(2 * i)) - point(modelled, 2 * parent));
-    }
-}
-
-// Finds the chain's rates from modal velocities.
-VecX rate_of(const Plant& plant, const std::array<double, 2>& at, const std::array<double, 2>& speed) {
-    constexpr double SHORT = 1e-5;  // [s]
-    VecX before, behind;
-    bend_chain(plant, {at[0] - SHORT * speed[0], at[1] - SHORT * speed[1]}, before);
-    bend_chain(plant, {at[0] + SHORT * speed[0], at[1] + SHORT * speed[1]}, behind);
-    return (behind - before) / (2 * SHORT);
 }
 
 // Updates the air's push on the modes, which then stays constant until the next update.
@@ -129,10 +157,11 @@ void begin_modal(Plant& plant) {
         }
         modal.rest[k] = modal.place[k];
     }
-    VecX x;
-    bend_chain(plant, modal.place, x);
-    begin_blend_out(modal.blend_out, plant.state.motion.x - x,
-                    plant.state.motion.v - rate_of(plant, modal.place, modal.speed));
+    VecX turned = modelled_terms(plant), turning = VecX::Zero(modelled.size());
+    add_turns(plant, modal.place, turned);
+    add_turns(plant, modal.speed, turning);
+    begin_blend_out(modal.blend_out, terms_of(plant, plant.state.motion.x) - turned,
+                    rate_of(plant, terms_of, plant.state.motion.x, plant.state.motion.v) - turning);
     plant.state.motion.history.valid = false;
     plant.report = {};
     plant.report.ok = true;
@@ -161,10 +190,13 @@ void pose(Plant& plant) {
         at[k] = now.place;
         speed[k] = now.speed;
     }
-    bend_chain(plant, at, plant.state.motion.x);
-    plant.state.motion.v = rate_of(plant, at, speed);
-    add_offset(modal.blend_out, plant.state.motion.x);
-    add_rate(modal.blend_out, plant.state.motion.v);
+    VecX terms = modelled_terms(plant), rates = VecX::Zero(terms.size());
+    add_turns(plant, at, terms);
+    add_turns(plant, speed, rates);
+    add_offset(modal.blend_out, terms);
+    add_rate(modal.blend_out, rates);
+    plant.state.motion.x = chain_of(plant, terms);
+    plant.state.motion.v = rate_of(plant, chain_of, terms, rates);
     modal.stale = false;
     moved(plant);
 }

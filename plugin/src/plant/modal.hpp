@@ -36,7 +36,7 @@ struct ModalState {
     double since = 0;                               // time since then [s]
     bool comes_to_rest = false;                     // whatever the air does, with at least half of critical damping
     bool fresh = true;                              // the air was not sampled yet
-    BlendOut blend_out;                             // remainder of the chain's shape and motion
+    BlendOut blend_out;                             // remainder of the chain's turns and strains
 };
 struct ModalMotion : ModalState {
     std::shared_ptr<const ModalBasis> modes;
