@@ -25,7 +25,11 @@ void take_back_from_links(World& world) {
             loads->taken.energy += double(given[k]) * (0.5 * double(changes[k]) - double(body.getVelocityVector()[k]));
             changes[k] = -changes[k];
         }
+        // All of it, beyond Bullet's bound on joints' speeds: plants give most of it again.
+        const btScalar bound = body.getMaxCoordinateVelocity();
+        body.setMaxCoordinateVelocity(BT_LARGE_FLOAT);
         body.applyDeltaVeeMultiDof(changes.data(), 1);
+        body.setMaxCoordinateVelocity(bound);
     }
 }
 
