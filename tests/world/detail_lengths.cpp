@@ -1,4 +1,4 @@
-// Detail: what moves fast while it is handed over to two modes keeps its capsules' lengths, and turns into their motion.
+// Detail: what moves fast while it is handed over to two modes keeps the lengths of its capsules.
 #include <gtest/gtest.h>
 
 #include <algorithm>
