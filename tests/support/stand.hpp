@@ -25,6 +25,16 @@ inline frond_world_def weightless(double step) {
     return def;
 }
 
+// Returns the lengths of a plant's capsules [m].
+inline std::vector<double> capsule_lengths(frond_plant plant) {
+    std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
+    must(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())));
+    std::vector<double> lengths;
+    for (const auto& [begin, end, radius] : capsules)
+        lengths.push_back(std::hypot(end.x - begin.x, end.y - begin.y, end.z - begin.z));
+    return lengths;
+}
+
 struct Stand {
     frond_world world = {};
     frond_model model = {};

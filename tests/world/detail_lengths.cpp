@@ -9,17 +9,9 @@
 
 namespace detail_lengths_tests {
 
+using frond::test::capsule_lengths;
 using frond::test::must;
 using frond::test::Stand;
-
-std::vector<double> lengths_of(frond_plant plant) {
-    std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
-    must(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())));
-    std::vector<double> lengths;
-    for (const frond_capsule& of : capsules)
-        lengths.push_back(std::hypot(of.end.x - of.begin.x, of.end.y - of.begin.y, of.end.z - of.begin.z));
-    return lengths;
-}
 
 // Has all nodes of a plant move along x, the faster the higher they are.
 void kick(frond_plant plant, double speed) {
@@ -40,7 +32,7 @@ TEST_P(Speeds, AreHandedOverWithoutDrawingCapsulesOut) {
     frond_plant_def def = stand.plant_def();
     def.mechanics = FROND_MECHANICS_ROD;
     const frond_plant plant = stand.add(def, {0, 0, 0}, 2);
-    const std::vector<double> own = lengths_of(plant);
+    const std::vector<double> own = capsule_lengths(plant);
     kick(plant, GetParam());
     const frond_detail_def detail = frond_default_detail_def();
     must(frond_world_set_detail(stand.world, &detail));
@@ -52,7 +44,7 @@ TEST_P(Speeds, AreHandedOverWithoutDrawingCapsulesOut) {
         frond_detail now = {};
         must(frond_plant_get_detail(plant, &now));
         modal_steps += now == FROND_DETAIL_MODAL;
-        const std::vector<double> lengths = lengths_of(plant);
+        const std::vector<double> lengths = capsule_lengths(plant);
         for (size_t k = 0; k < own.size(); k++) most = std::max(most, lengths[k] / own[k]);
     }
     EXPECT_GT(modal_steps, 100);

@@ -38,10 +38,8 @@ struct Crash : Stand {
     std::vector<double> lengths_now() const {
         std::vector<double> all;
         for (const frond_plant plant : plants) {
-            std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
-            must(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())));
-            for (const auto& [begin, end, radius] : capsules)
-                all.push_back(std::hypot(end.x - begin.x, end.y - begin.y, end.z - begin.z));
+            const std::vector<double> of_one = frond::test::capsule_lengths(plant);
+            all.insert(all.end(), of_one.begin(), of_one.end());
         }
         return all;
     }

@@ -51,44 +51,47 @@ State state_of(const ModalMotion& modal, size_t k) {
                  modal.since);
 }
 
-// A chain in its own terms: rotations of its nodes, places of roots, and of any other node by how much its segment's
-// chord differs from the modelled one, in the frame midway between its ends' rotations. A sum of such terms bends a
-// chain, and a sum of places stretches it.
-VecX terms_of(const Plant& plant, const VecX& x) {
+// Calls `act` for each segment of a chain with such rotations: its nodes, the rotation midway between theirs, and its
+// modelled chord.
+template <class Act>
+void for_each_segment(const Plant& plant, const VecX& x, const Act& act) {
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
     const VecX& modelled = elements_of(*plant.system).modelled;
-    VecX terms = x;
     for (int i = 0; i < int(nodes.size()); i++) {
         const int parent = nodes[size_t(i)].parent;
         if (parent < 0) continue;
         const Vec3 turn = 0.5 * (point(x, 2 * parent + 1) + point(x, 2 * i + 1));
-        point(terms, 2 * i) = rotation_of<double>(turn).transpose() * (point(x, 2 * i) - point(x, 2 * parent)) -
-                              (point(modelled, 2 * i) - point(modelled, 2 * parent));
+        act(2 * parent, 2 * i, rotation_of<double>(turn), Vec3(point(modelled, 2 * i) - point(modelled, 2 * parent)));
     }
+}
+
+// A chain in its own terms: rotations of its nodes, places of roots, and of any other node by how much its segment's
+// chord differs from the modelled one, in the frame midway between its ends' rotations. A sum of such terms bends a
+// chain, and a sum of places stretches it.
+VecX terms_of(const Plant& plant, const VecX& x) {
+    VecX terms = x;
+    for_each_segment(plant, x, [&](int begin, int end, const Mat3& turned, const Vec3& chord) {
+        point(terms, end) = turned.transpose() * (point(x, end) - point(x, begin)) - chord;
+    });
     return terms;
 }
 
+// Returns the positions and rotations of the chain with such terms.
+VecX chain_of(const Plant& plant, const VecX& terms) {
+    VecX x = terms;
+    for_each_segment(plant, terms, [&](int begin, int end, const Mat3& turned, const Vec3& chord) {
+        point(x, end) = point(x, begin) + turned * (chord + point(terms, end));
+    });
+    return x;
+}
+
+// Returns the terms of the chain as modelled.
 VecX modelled_terms(const Plant& plant) {
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
     VecX terms = elements_of(*plant.system).modelled;
     for (int i = 0; i < int(nodes.size()); i++)
         if (nodes[size_t(i)].parent >= 0) point(terms, 2 * i).setZero();
     return terms;
-}
-
-// Returns the positions and rotations of the chain with such terms.
-VecX chain_of(const Plant& plant, const VecX& terms) {
-    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
-    const VecX& modelled = elements_of(*plant.system).modelled;
-    VecX x = terms;
-    for (int i = 0; i < int(nodes.size()); i++) {
-        const int parent = nodes[size_t(i)].parent;
-        if (parent < 0) continue;
-        const Vec3 turn = 0.5 * (point(x, 2 * parent + 1) + point(x, 2 * i + 1));
-        const Vec3 chord = point(modelled, 2 * i) - point(modelled, 2 * parent) + point(terms, 2 * i);
-        point(x, 2 * i) = point(x, 2 * parent) + rotation_of<double>(turn) * chord;
-    }
-    return x;
 }
 
 // Returns how `of` changes where x moves by v.
