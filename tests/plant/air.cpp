@@ -192,8 +192,8 @@ TEST_P(EveryAir, PoleHasTheDragOfTheFormulaAndItsRootHoldsIt) {
     // The reaction at the root balances the forces of its elements and of the air.
     VecX f = VecX::Zero(pole.plant->state.motion.x.size());
     mechanics(which).add_force(elements_of(*pole.plant->system), pole.plant->state.motion.x, f);
-    add_attachment_force(pole.plant->step.loads.drags[0].attachment, pole.plant->state.motion.x, Vec3::Zero(), f);
-    for (const Drag& drag : pole.plant->step.loads.drags)
+    add_attachment_force(pole.plant->step.loads->drags[0].attachment, pole.plant->state.motion.x, Vec3::Zero(), f);
+    for (const Drag& drag : pole.plant->step.loads->drags)
         add_attachment_force(drag.attachment, pole.plant->state.motion.x, drag.force, f);
     Vec3 reaction = Vec3::Zero();
     const int next = pole.plant->follow ? 2 : 1;
@@ -267,7 +267,7 @@ TEST_P(EveryAir, StillAirOnlyTakesEnergyFromASway) {
         with.step(1.0 / 240);
         without.step(1.0 / 240);
         double power = 0;
-        for (const Drag& drag : with.plant->step.loads.drags) {
+        for (const Drag& drag : with.plant->step.loads->drags) {
             const Vec3 velocity =
                 attachment_velocity(drag.attachment, with.plant->state.motion.x, with.plant->state.motion.v);
             power += velocity.dot(drag.force - drag.damping * velocity);
@@ -339,9 +339,9 @@ TEST(Air, WithoutOneOfBothEffectsTheOtherHalfIsLeftOut) {
     pushed.step(1.0 / 60);
     dragged.step(1.0 / 60);
     EXPECT_GT(pushed.plant->view.chain_positions.back().x(), 0);
-    for (const Drag& drag : pushed.plant->step.loads.drags) EXPECT_TRUE(drag.damping.isZero(0));
+    for (const Drag& drag : pushed.plant->step.loads->drags) EXPECT_TRUE(drag.damping.isZero(0));
     EXPECT_LT((dragged.plant->state.motion.x - elements_of(*dragged.plant->system).modelled).norm(), 1e-12);
-    EXPECT_TRUE(dragged.plant->step.loads.drags.empty());
+    EXPECT_TRUE(dragged.plant->step.loads->drags.empty());
 }
 
 TEST(Air, OffOrAbsentChangesNoBitAndAllocatesNothing) {

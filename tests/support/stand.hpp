@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "support/lengths.hpp"
 #include "support/must.hpp"
 #include "support/referee.hpp"
 #include "support/stems.hpp"
@@ -23,16 +24,6 @@ inline frond_world_def weightless(double step) {
     def.max_substep = std::max(def.max_substep, step);
     def.sleep_distance = 0;
     return def;
-}
-
-// Returns the lengths of a plant's capsules [m].
-inline std::vector<double> capsule_lengths(frond_plant plant) {
-    std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
-    must(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())));
-    std::vector<double> lengths;
-    for (const auto& [begin, end, radius] : capsules)
-        lengths.push_back(std::hypot(end.x - begin.x, end.y - begin.y, end.z - begin.z));
-    return lengths;
 }
 
 struct Stand {

@@ -8,8 +8,12 @@
 #include <vector>
 
 #include "frond/frond.h"
+#include "support/lengths.hpp"
 
 namespace breeze_tests {
+
+using frond::test::capsule_lengths;
+using frond::test::edge_lengths;
 
 struct Breeze {
     const char* plant;
@@ -37,11 +41,11 @@ std::vector<Breeze> all_breezes() {
 // The drawn edges and their lengths in the modelled shape.
 class Edges {
 public:
-    explicit Edges(frond_plant plant) : plant(plant) { modelled = lengths(); }
+    explicit Edges(frond_plant plant) : plant(plant) { modelled = edge_lengths(plant); }
 
     // Returns the share of edges that are drawn longer than 1.3 of their length [-].
     double torn() const {
-        const std::vector<double> now = lengths();
+        const std::vector<double> now = edge_lengths(plant);
         int count = 0;
         for (size_t i = 0; i < now.size(); i++) count += now[i] > 1.3 * modelled[i];
         return double(count) / double(now.size());
@@ -50,18 +54,6 @@ public:
 private:
     frond_plant plant;
     std::vector<double> modelled;
-
-    std::vector<double> lengths() const {
-        frond_surface_view view;
-        EXPECT_EQ(frond_plant_get_surface(plant, &view), FROND_OK);
-        std::vector<double> all;
-        for (int i = 0; i < 3 * view.triangle_count; i++) {
-            const float* a = view.positions + 3 * view.indices[i];
-            const float* b = view.positions + 3 * view.indices[i % 3 == 2 ? i - 2 : i + 1];
-            all.push_back(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
-        }
-        return all;
-    }
 };
 
 class EveryBreeze : public testing::TestWithParam<Breeze> {};
@@ -91,17 +83,9 @@ TEST_P(EveryBreeze, LeavesSegmentsTheirLengthsAndThePlantUpright) {
     ASSERT_EQ(frond_world_set_wind(world, &wind), FROND_OK) << frond_last_error();
     ASSERT_EQ(frond_model_load(path.c_str(), &model_def, &model), FROND_OK) << frond_last_error();
     ASSERT_EQ(frond_plant_create(world, model, &def, &plant), FROND_OK) << frond_last_error();
-    std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
-    const auto lengths = [&] {
-        EXPECT_EQ(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())), FROND_OK);
-        std::vector<double> all;
-        for (const frond_capsule& c : capsules)
-            all.push_back(std::hypot(c.end.x - c.begin.x, c.end.y - c.begin.y, c.end.z - c.begin.z));
-        return all;
-    };
-    const std::vector<double> modelled = lengths();
+    const std::vector<double> modelled = capsule_lengths(plant);
     const auto longest = [&] {
-        const std::vector<double> now = lengths();
+        const std::vector<double> now = capsule_lengths(plant);
         double most = 0;
         for (size_t i = 0; i < now.size(); i++) most = std::max(most, now[i] / modelled[i]);
         return most;

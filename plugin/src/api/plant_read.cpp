@@ -147,12 +147,9 @@ frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out) {
         const PlantBody& body = look_at(get(plant));
         const Vec3 gravity = gravity_of(*body.world);
         const Vec3 up = gravity.norm() > 0 ? Vec3(-gravity) : Vec3(Vec3::UnitY());
-        Vec3 tip = vertex_position(*body.plant, 0);
-        for (int v = 1; v < int(body.plant->model->surface.positions.size()); v++) {
-            const Vec3 p = vertex_position(*body.plant, v);
-            if (up.dot(p) > up.dot(tip)) tip = p;
-        }
-        return from_vec(tip);
+        const std::vector<Vec3> places = vertex_positions(*body.plant);
+        const auto is_lower = [&](const Vec3& a, const Vec3& b) { return up.dot(a) < up.dot(b); };
+        return from_vec(*std::max_element(places.begin(), places.end(), is_lower));
     });
 }
 

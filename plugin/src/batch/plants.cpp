@@ -159,18 +159,18 @@ void gather_motions(Batch& step, Plant* const* plants, int count, const Surround
 }
 
 void take_loads(Plant& plant, const Batch& step, int lane, frond_effects effects) {
-    plant.step.loads.drags.clear();
-    plant.step.loads.springs.clear();
-    plant.step.loads.fibres = nullptr;
+    plant.step.loads->drags.clear();
+    plant.step.loads->springs.clear();
+    plant.step.loads->fibres = nullptr;
     plant.step.has_fibres = effects & FROND_EFFECT_FIBRES;
-    plant.step.loads.force.resize(0);
-    for (int c = 0; c < 3; c++) plant.step.loads.gravity[c] = step.gravity[size_t(c * step.lanes + lane)];
+    plant.step.loads->force.resize(0);
+    for (int c = 0; c < 3; c++) plant.step.loads->gravity[c] = step.gravity[size_t(c * step.lanes + lane)];
 }
 
 bool is_plausible(Plant& plant, const Batch& step, int lane, double h) {
-    take_drags(step, lane, plant.step.loads.drags);
+    take_drags(step, lane, plant.step.loads->drags);
     const bool plausible = is_plausible(plant, h);
-    plant.step.loads.drags.clear();
+    plant.step.loads->drags.clear();
     return plausible && !is_far_out(plant);
 }
 
@@ -259,7 +259,7 @@ void take_factors(const Batch& step, Plant* const* plants, unsigned which) {
 // Leaves a plant ready for contacts, with its own drags.
 void go_on_alone(Plant& plant, const Batch& step, int lane) {
     plant.state.blown.setZero();
-    take_drags(step, lane, plant.step.loads.drags);
+    take_drags(step, lane, plant.step.loads->drags);
     finish_solving(plant);
 }
 

@@ -152,7 +152,7 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
 }  // namespace
 
 void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
-    std::vector<Drag>& drags = plant.step.loads.drags;
+    std::vector<Drag>& drags = plant.step.loads->drags;
     plant.state.blown.setZero();
     if (!surroundings.wind || !(effects & (FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG))) return drags.clear();
     if (!plant.state.air) {
@@ -185,7 +185,7 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
 
 Vec3 air_force(const Plant& plant) {
     Vec3 sum = plant.state.blown;
-    for (const Drag& drag : plant.step.loads.drags)
+    for (const Drag& drag : plant.step.loads->drags)
         sum += drag.force -
                product(drag.damping, attachment_velocity(drag.attachment, plant.state.motion.x, plant.state.motion.v));
     return plant.rotation * sum;

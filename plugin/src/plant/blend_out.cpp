@@ -6,7 +6,7 @@
 namespace frond {
 
 constexpr double SPEED = 4;      // [1/s]
-constexpr double UNSEEN = 1e-6;  // [m]
+constexpr double UNSEEN = 1e-5;  // [m], [rad]
 
 void begin_blend_out(BlendOut& blend_out, VecX offset, const VecX& rate) {
     FROND_ASSERT(offset.size() == rate.size());
@@ -24,10 +24,10 @@ void pass_time(BlendOut& blend_out, double h) {
     if (most * frond::exp(-SPEED * blend_out.time) < UNSEEN) blend_out = {};
 }
 
-void add_offset(const BlendOut& blend_out, VecX& x) {
+void add_offset(const BlendOut& blend_out, VecX& x, double after) {
     FROND_ASSERT(is_over(blend_out) || x.size() == blend_out.offset.size());
-    if (!is_over(blend_out))
-        x += frond::exp(-SPEED * blend_out.time) * (blend_out.offset + blend_out.time * blend_out.rate);
+    const double time = blend_out.time + after;
+    if (!is_over(blend_out)) x += frond::exp(-SPEED * time) * (blend_out.offset + time * blend_out.rate);
 }
 
 void add_rate(const BlendOut& blend_out, VecX& v) {

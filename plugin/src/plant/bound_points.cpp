@@ -1,6 +1,8 @@
 // Points that follow the cage: vertices of the surface, the chain and its capsules, and their attachments for forces.
 
-#include "plant/plant.hpp"
+#include <algorithm>
+
+#include "plant/seen.hpp"
 #include "solve/system.hpp"
 
 namespace frond {
@@ -10,40 +12,45 @@ static TetPlace bound_place(const Plant& plant, const Embedding& embedding, size
     return place_in_tet(*plant.nodes, plant.model->cage.tets, embedding.tet[i], embedding.weights[i]);
 }
 
-static Vec3 bound_point(const Plant& plant, const Embedding& embedding, size_t i, const VecX& x) {
+Vec3 bound_point(const Plant& plant, const Embedding& embedding, size_t i, const VecX& x) {
     const TetPlace place = bound_place(plant, embedding, i);
     Vec3 p = Vec3::Zero();
     for (size_t k = 0; k < size_t(place.count); k++) p += place.weight[k] * point(x, place.node[k]);
     return p;
 }
 
+// Returns how the plant looks at the end of its step, or extrapolated until it is stepped again.
+static Look look_now(const Plant& plant) {
+    const Motion& motion = plant.state.motion;
+    if (plant.view.lead == 0) return look_of(plant, motion.x, 0);
+    return look_of(plant, motion.x + plant.view.lead * motion.v, plant.view.lead);
+}
+
+static Vec3 vertex_now(const Plant& plant, const Look& look, size_t vertex) {
+    const Fragment* fragment = fragment_of_vertex(plant, vertex);
+    if (!fragment) return plant.to_world(vertex_in(plant, look, vertex));
+    if (!fragment->follow) return fragment->place(bound_point(plant, plant.model->embedding, vertex, fragment->cage_x));
+    const Skin& skin = fragment->follow->skin;
+    return fragment->place(attachment_place(skin_attachment(skin, skin.vertices[vertex]), fragment->x));
+}
+
 Vec3 vertex_position(const Plant& plant, int vertex) {
-    const Fragment* fragment = fragment_of_vertex(plant, size_t(vertex));
-    const auto in_cage = [&](const VecX& x) { return bound_point(plant, plant.model->embedding, size_t(vertex), x); };
-    const auto on_chain = [&](const Follow& follow, const VecX& x) {
-        return attachment_place(skin_attachment(follow.skin, follow.skin.vertices[size_t(vertex)]), x);
-    };
-    if (fragment)
-        return fragment->place(fragment->follow ? on_chain(*fragment->follow, fragment->x) : in_cage(fragment->cage_x));
-    if (!plant.follow) return plant.to_world(in_cage(cage_places(plant)));
-    Vec3 place = on_chain(*plant.follow, plant.view.lead > 0
-                                             ? VecX(plant.state.motion.x + plant.view.lead * plant.state.motion.v)
-                                             : plant.state.motion.x);
-    if (!is_over(plant.state.blend_out)) place += in_cage(blend_offset(plant, plant.view.lead));
-    return plant.to_world(place);
+    return vertex_now(plant, look_now(plant), size_t(vertex));
+}
+
+std::vector<Vec3> vertex_positions(const Plant& plant) {
+    const Look look = look_now(plant);
+    std::vector<Vec3> positions(plant.model->surface.positions.size());
+    for (size_t v = 0; v < positions.size(); v++) positions[v] = vertex_now(plant, look, v);
+    return positions;
 }
 
 int nearest_vertex(const Plant& plant, const Vec3& point) {
-    int nearest = 0;
-    double best = INFINITY;
-    for (size_t v = 0; v < plant.model->surface.positions.size(); v++) {
-        const double distance = (vertex_position(plant, int(v)) - point).squaredNorm();
-        if (distance < best) {
-            best = distance;
-            nearest = int(v);
-        }
-    }
-    return nearest;
+    const std::vector<Vec3> positions = vertex_positions(plant);
+    const auto is_nearer = [&](const Vec3& a, const Vec3& b) {
+        return (a - point).squaredNorm() < (b - point).squaredNorm();
+    };
+    return int(std::min_element(positions.begin(), positions.end(), is_nearer) - positions.begin());
 }
 
 // Returns a chain node carried by a cage. A node whose tet is gone moves with its parent.

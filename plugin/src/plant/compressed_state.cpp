@@ -33,7 +33,7 @@ void drop_foot(Plant& plant) {
 void compress(Plant& plant, double tolerance, bool keep_surface) {
     if (plant.state.is_compressed || !plant.state.fragments.empty()) return;
     end_modal(plant);
-    plant.state.blend_out = {};
+    plant.state.blend = nullptr;
     plant.view.lead = plant.state.stepped_by = 0;
     const VecX& modelled = elements_of(*plant.system).modelled;
     FROND_ASSERT(plant.state.motion.x.size() == modelled.size());
@@ -47,7 +47,7 @@ void compress(Plant& plant, double tolerance, bool keep_surface) {
     plant.seat.leave();
     plant.state.motion = {};
     plant.state.trend = {};
-    plant.step.loads = {};
+    plant.step.loads = nullptr;
     plant.step.push = nullptr;
     plant.state.blown.setZero();
     plant.state.air = nullptr;
@@ -68,6 +68,7 @@ void decompress(Plant& plant) {
     if (!plant.state.is_compressed) return;
     plant.state.is_compressed = false;
     plant.seat.take();
+    plant.step.loads = std::make_unique<Loads>();
     Motion& motion = plant.state.motion;
     motion.x = motion.pin_target = elements_of(*plant.system).modelled;
     FROND_ASSERT(plant.state.away.empty() || plant.state.away.size() == size_t(motion.x.size()));

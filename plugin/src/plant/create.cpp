@@ -9,6 +9,7 @@
 #include "core/assert.hpp"
 #include "core/convert.hpp"
 #include "plant/pins.hpp"
+#include "plant/seen.hpp"
 #include "plant/settings.hpp"
 #include "plant/touch.hpp"
 
@@ -99,6 +100,20 @@ std::shared_ptr<const ModalBasis> modal_basis_of(const Plant& plant) {
     });
 }
 
+static std::shared_ptr<const Follow> shared_follow(const Plant& plant) {
+    const CageNodes& nodes = *plant.nodes;
+    return shared_of<Follow>(plant.model, nodes.order,
+                             [&] { return make_follow(*plant.model, nodes, nodes.modelled); });
+}
+
+const std::shared_ptr<const Marks>& marks_of(const Plant& plant) {
+    FROND_ASSERT(!plant.follow);
+    if (!plant.view.marks)
+        plant.view.marks = shared_of<Marks>(plant.model, plant.nodes->order,
+                                            [&] { return make_marks(*plant.model, shared_follow(plant)); });
+    return plant.view.marks;
+}
+
 // Returns null if the cage needs no fibres.
 static std::shared_ptr<const Fibres> shared_fibres(const Plant& plant) {
     const CageNodes& nodes = *plant.nodes;
@@ -128,20 +143,18 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.state.own_elements = nullptr;
     plant.follow = nullptr;
     plant.state.modal = nullptr;
-    plant.state.blend_out = {};
+    end_blend(plant);
     plant.view.lead = plant.state.stepped_by = 0;
     plant.fibres = nullptr;
     plant.state.fibre_give.clear();
     plant.state.stretched = 0;
     if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = shared_fibres(plant);
-    if (mechanics(which).moves_chain)
-        plant.follow = shared_of<Follow>(plant.model, nodes.order,
-                                         [&] { return make_follow(*plant.model, nodes, nodes.modelled); });
+    if (mechanics(which).moves_chain) plant.follow = shared_follow(plant);
     const VecX& start = elements_of(*plant.system).modelled;
     plant.state.motion = {};
     plant.state.motion.x = plant.state.motion.pin_target = start;
     plant.state.motion.v = VecX::Zero(start.size());
-    plant.step.loads = {};
+    *plant.step.loads = {};
     plant.state.blown.setZero();
     plant.state.motion.pinned.assign(size_t(start.size() / 3), 0);
     plant.input.pins_changed = plant.view.cage_stale = true;
@@ -242,11 +255,12 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (which == plant.which) return;
     end_modal(plant);
     const bool by_modes = smoothly && sways_on_its_roots(plant);
-    const VecX places = cage_places(plant), velocities = cage_velocities(plant);
-    // A blend-out left from an earlier change is no part of the shape; taken for one, it would never end.
-    if (smoothly) plant.state.blend_out = {};
-    plant.view.cage_stale = true;
-    const VecX own = cage_places(plant), own_rate = cage_velocities(plant);
+    const Seen seen = smoothly ? seen_of(plant) : Seen();
+    const bool blended = smoothly && blends(plant);
+    // What an earlier change left to blend out is no part of the shape; taken for one, it would never end.
+    if (smoothly) end_blend(plant);
+    const Seen own = blended ? seen_of(plant) : seen;
+    const VecX places = cage_places(plant), rates = cage_velocities(plant);
     if (by_modes && plant.follow) keep_only_modes(plant);
     VecX smooth = cage_places(plant);
     const VecX smooth_rate = cage_velocities(plant);
@@ -256,25 +270,27 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     // Plastic states carry over between mechanics of tets, and between those of the chain.
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
     const std::vector<double> plastic = keeps ? plastic_of(plant) : std::vector<double>();
-    const Vec3 gravity = plant.step.loads.gravity;
+    const Vec3 gravity = plant.step.loads->gravity;
     take_mechanics(plant, which);
-    plant.step.loads.gravity = gravity;
-    if (plant.follow) {
-        fit_chain(*plant.follow, *plant.model, own, plant.state.motion.x);
-        fit_velocities(*plant.follow, plant.state.motion.x, own_rate, plant.state.motion.v);
-        if (by_modes) keep_only_modes(plant);
+    plant.step.loads->gravity = gravity;
+    Motion& motion = plant.state.motion;
+    if (!plant.follow) {
+        motion.x = smooth;
+        motion.v = smooth_rate;
+    } else if (smoothly) {
+        motion.x = own.chain;
+        motion.v = chain_rate(own);
     } else {
-        plant.state.motion.x = smooth;
-        plant.state.motion.v = smooth_rate;
+        fit_chain(*plant.follow, *plant.model, places, motion.x);
+        fit_velocities(*plant.follow, motion.x, rates, motion.v);
     }
+    if (by_modes && plant.follow) keep_only_modes(plant);
     leave_fragments(plant);
     set_plastic(plant, plastic);
     relax(plant, held, pins_moved);
     apply_pins(plant);
     moved(plant);
-    if (smoothly)
-        begin_blend_out(plant.state.blend_out, places - cage_places(plant), velocities - cage_velocities(plant));
-    plant.view.cage_stale = true;
+    if (smoothly) blend_from(plant, seen);
 }
 
 }  // namespace frond

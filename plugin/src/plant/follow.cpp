@@ -108,32 +108,33 @@ Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modell
     return follow;
 }
 
-void follow_places(const Follow& follow, const VecX& x, VecX& cage_x) {
+void follow_places(const Carried& carried, const VecX& x, VecX& places) {
     std::vector<Mat3> rotations(size_t(x.size()) / 6);
     for (size_t i = 0; i < rotations.size(); i++) rotations[i] = rotation_of<double>(point(x, int(2 * i + 1)));
-    cage_x.resize(3 * Eigen::Index(follow.attachments.size()));
-    for (size_t n = 0; n < follow.attachments.size(); n++) {
-        const Attachment& attachment = follow.attachments[n];
+    places.resize(3 * Eigen::Index(carried.attachments.size()));
+    for (size_t n = 0; n < carried.attachments.size(); n++) {
+        const Attachment& attachment = carried.attachments[n];
         Vec3 place = Vec3::Zero();
         for (size_t k = 0; k < size_t(attachment.count); k++)
             place += attachment.weight[k] * point(x, attachment.node[k]) +
                      rotations[size_t(attachment.node[k]) / 2] * attachment.arm[k];
-        point(cage_x, int(n)) = place;
+        point(places, int(n)) = place;
     }
 }
 
-void follow_velocities(const Follow& follow, const VecX& x, const VecX& v, VecX& cage_v) {
-    cage_v.resize(3 * Eigen::Index(follow.attachments.size()));
-    for (size_t n = 0; n < follow.attachments.size(); n++)
-        point(cage_v, int(n)) = attachment_velocity(follow.attachments[n], x, v);
+void follow_velocities(const Carried& carried, const VecX& x, const VecX& v, VecX& velocities) {
+    velocities.resize(3 * Eigen::Index(carried.attachments.size()));
+    for (size_t n = 0; n < carried.attachments.size(); n++)
+        point(velocities, int(n)) = attachment_velocity(carried.attachments[n], x, v);
 }
 
 bool fit_rigid(const std::vector<Vec3>& from, const std::vector<Vec3>& to, const Vec3& origin, Mat3& rotation,
-               Vec3& image) {
+               Vec3& image, double weight) {
     if (from.size() < 3) return false;
     const Eigen::Matrix3Xd a = points_of(from), b = points_of(to);
     const Vec3 from_middle = a.rowwise().mean(), to_middle = b.rowwise().mean();
-    const Mat3 spread = (b.colwise() - to_middle) * (a.colwise() - from_middle).transpose();
+    Mat3 spread = (b.colwise() - to_middle) * (a.colwise() - from_middle).transpose();
+    if (weight > 0) spread += weight * (a.colwise() - from_middle).squaredNorm() * rotation;
     const SingularParts svd = singular_parts(spread);
     if (!(svd.values[1] > 1e-6 * svd.values[0])) return false;
     Mat3 sign = Mat3::Identity();

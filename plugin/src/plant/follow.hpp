@@ -11,11 +11,15 @@
 
 namespace frond {
 
-struct Follow {
-    std::vector<Attachment> attachments;  // one per cage node
-    std::vector<int> nearest;             // chain node to which each cage node is attached most
-    VecX modelled;                        // positions of the cage nodes in the modelled shape [m]
-    Skin skin;                            // how the surface follows
+// Points that a chain carries.
+struct Carried {
+    std::vector<Attachment> attachments;  // one per point
+    VecX modelled;                        // their positions in the modelled shape [m]
+};
+// The cage's nodes, and the surface.
+struct Follow : Carried {
+    std::vector<int> nearest;  // chain node to which each cage node is attached most
+    Skin skin;                 // how the surface follows
 };
 
 // Returns, for each cage node, the chain node at the end of the nearest capsule of its own organs; -1: the chain has
@@ -26,18 +30,21 @@ std::vector<int> nearest_capsules(const Model& model, const TetNodes& nodes, con
 // meet. Beyond a capsule's ends it is rigid with the node there.
 Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modelled);
 
-// Compute positions and velocities of the cage nodes from the chain's positions and rotations x and their rates v.
-void follow_places(const Follow& follow, const VecX& x, VecX& cage_x);
-void follow_velocities(const Follow& follow, const VecX& x, const VecX& v, VecX& cage_v);
+// Compute positions and velocities of what is carried from the chain's positions and rotations x and their rates v.
+void follow_places(const Carried& carried, const VecX& x, VecX& places);
+void follow_velocities(const Carried& carried, const VecX& x, const VecX& v, VecX& velocities);
 
-// Find the chain's positions and rotations for which the cage is nearest to cage_x, in the sense of least squares:
-// exact if the chain can take that shape. `x` must have its size; it receives the result.
-void fit_chain(const Follow& follow, const Model& model, const VecX& cage_x, VecX& x);
-void fit_velocities(const Follow& follow, const VecX& x, const VecX& cage_v, VecX& v);
+// Finds each chain node's position and rotation by the points around it alone: quick, and continuous in `places`.
+void fit_chain_roughly(const Carried& carried, const Model& model, const VecX& places, VecX& x);
+// Find the chain's positions and rotations for which what it carries is nearest to `places`, in the sense of least
+// squares: exact if the chain can take that shape. `x` must have its size; it receives the result.
+void fit_chain(const Carried& carried, const Model& model, const VecX& places, VecX& x);
+void fit_velocities(const Carried& carried, const VecX& x, const VecX& velocities, VecX& v, double damping = 0);
 
-// Finds the rigid motion that takes `from` nearest to `to` (Kabsch 1976): rotation and the image of `origin`. False if
-// the points lie on one line, which leaves the rotation undetermined.
+// Finds the rigid motion that takes `from` nearest to `to` (Kabsch 1976): rotation and the image of `origin`. The
+// rotation that is passed counts by `weight`, over what the points do. False if the points lie on one line and it does
+// not count, which leaves the rotation undetermined; nothing is changed then.
 bool fit_rigid(const std::vector<Vec3>& from, const std::vector<Vec3>& to, const Vec3& origin, Mat3& rotation,
-               Vec3& image);
+               Vec3& image, double weight = 0);
 
 }  // namespace frond

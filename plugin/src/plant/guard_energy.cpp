@@ -16,11 +16,11 @@ double work_of_weight(const Plant& plant, const VecX& way) {
     const VecX& mass = node_mass_of(*plant.system);
     Vec3 moved = Vec3::Zero();
     for (int i = 0; i < mass.size(); i++) moved += mass[i] * point(way, i);
-    return plant.step.loads.gravity.dot(moved);
+    return plant.step.loads->gravity.dot(moved);
 }
 
 double potential_energy(const Plant& plant, const VecX& x) {
-    const Loads& loads = plant.step.loads;
+    const Loads& loads = *plant.step.loads;
     double energy = elastic_energy(plant, x) - work_of_weight(plant, x);
     if (loads.force.size() > 0) energy -= loads.force.dot(x);
     for (const Spring& spring : loads.springs)

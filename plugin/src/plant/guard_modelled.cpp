@@ -6,7 +6,7 @@
 
 #include "mechanics/rotation.hpp"
 #include "plant/guard.hpp"
-#include "plant/plant.hpp"
+#include "plant/seen.hpp"
 
 namespace frond {
 
@@ -115,15 +115,15 @@ bool start_from_modelled(Plant& plant) {
     const VecX x = modelled_in(plant, rotation, shift);
     if (!drop_wild_sets_for_less_energy(plant, x)) return false;
     plant.view.cage_stale = true;  // a host may have read the places from which the step began
-    const VecX places = cage_places(plant);
+    Seen seen = seen_of(plant);
+    seen.velocities.setZero();
+    seen.chain_moving = seen.chain;
     motion.x = x;
     motion.v.setZero();
     motion.history.valid = false;
-    plant.view.cage_stale = true;
-    plant.state.blend_out = {};
+    end_blend(plant);
     // Bodies touch the visible shape: a blend-out would have them bend the plant from where it no longer is.
-    if (!plant.state.is_touched)
-        begin_blend_out(plant.state.blend_out, places - cage_places(plant), VecX::Zero(places.size()));
+    if (!plant.state.is_touched) blend_from(plant, seen);
     return true;
 }
 

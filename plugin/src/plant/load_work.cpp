@@ -32,7 +32,7 @@ VecX elastic_force(const Plant& plant, const VecX& x) {
 
 // Adds work in the air: at the end of the step each drag's force is force - damping v.
 void add_air(const Plant& plant, LoadWork& work) {
-    for (const Drag& drag : plant.step.loads.drags) {
+    for (const Drag& drag : plant.step.loads->drags) {
         const Vec3 before = attachment_velocity(drag.attachment, plant.step.x_good, plant.step.v_good);
         const Vec3 after = attachment_velocity(drag.attachment, plant.state.motion.x, plant.state.motion.v);
         const Vec3 way = displacement(drag.attachment, plant);
@@ -43,7 +43,7 @@ void add_air(const Plant& plant, LoadWork& work) {
 
 // Returns the springs of grabs, which follow those that hold pinned nodes.
 std::vector<Spring> grab_springs(const Plant& plant) {
-    return {plant.step.loads.springs.begin() + long(plant.input.pin_springs.size()), plant.step.loads.springs.end()};
+    return {plant.step.loads->springs.begin() + long(plant.input.pin_springs.size()), plant.step.loads->springs.end()};
 }
 
 void add_grabs(const Plant& plant, LoadWork& work) {
@@ -73,13 +73,13 @@ VecX forces_at_end(const Plant& plant, const VecX& elastic, double h) {
     const Motion& motion = plant.state.motion;
     const VecX& mass = node_mass_of(*plant.system);
     VecX force = elastic;
-    if (plant.step.loads.force.size() > 0) force += plant.step.loads.force;
+    if (plant.step.loads->force.size() > 0) force += plant.step.loads->force;
     if (is_pushed(plant)) force += plant.step.push->share / h * plant.step.push->impulse;
     add_spring_force(grab_springs(plant), motion.x, force);
-    add_drag_force(plant.step.loads.drags, motion.x, motion.v, force);
+    add_drag_force(plant.step.loads->drags, motion.x, motion.v, force);
     for (int i = 0; i < mass.size(); i++)
         point(force, i) +=
-            mass[i] * (plant.step.loads.gravity - plant.step.settings.mass_damping * Vec3(point(motion.v, i)));
+            mass[i] * (plant.step.loads->gravity - plant.step.settings.mass_damping * Vec3(point(motion.v, i)));
     return force;
 }
 
@@ -91,13 +91,13 @@ Vec3 mean_holding_force(const Plant& plant, double h) {
     Vec3 momentum = Vec3::Zero(), loads = Vec3::Zero();
     for (int i = 0; i < mass.size(); i += next) {
         momentum += mass[i] * (point(motion.v, i) - point(plant.step.v_good, i));
-        loads += mass[i] * (plant.step.loads.gravity - plant.step.settings.mass_damping * Vec3(point(motion.v, i)));
-        if (plant.step.loads.force.size() > 0) loads += point(plant.step.loads.force, i);
+        loads += mass[i] * (plant.step.loads->gravity - plant.step.settings.mass_damping * Vec3(point(motion.v, i)));
+        if (plant.step.loads->force.size() > 0) loads += point(plant.step.loads->force, i);
         if (is_pushed(plant)) momentum -= plant.step.push->share * point(plant.step.push->impulse, i);
     }
     for (const Spring& spring : grab_springs(plant))
         loads += spring.stiffness * (spring.target - attachment_place(spring.attachment, motion.x));
-    for (const Drag& drag : plant.step.loads.drags)
+    for (const Drag& drag : plant.step.loads->drags)
         loads += drag.force - drag.damping * attachment_velocity(drag.attachment, motion.x, motion.v);
     return momentum / h - loads;
 }
@@ -162,7 +162,7 @@ Vec3 rotation_in_step(const Plant& plant, int node) {
 // A constant force works along any way, a constant moment along a turn about one axis. Turns about several do not add
 // up, which is an error of third order.
 void add_forces(const Plant& plant, const VecX& way, LoadWork& work) {
-    const VecX& force = plant.step.loads.force;
+    const VecX& force = plant.step.loads->force;
     if (force.size() == 0) return;
     work.forces = force.dot(way);
     for (int i = 1; plant.follow && i < way.size() / 3; i += 2) {

@@ -168,7 +168,7 @@ void begin_modal(Plant& plant) {
     plant.state.motion.history.valid = false;
     plant.report = {};
     plant.report.ok = true;
-    plant.step.loads.drags.clear();
+    plant.step.loads->drags.clear();
     plant.state.blown.setZero();
     plant.state.stepped_by = 0;
 }

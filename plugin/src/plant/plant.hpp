@@ -36,6 +36,7 @@ struct Trend {
 };
 
 // Workspaces that the plants of one system take by turns: a plant has one only between the halves of a step.
+struct Marks;
 struct PlantBatch;
 struct WorkspacePool {
     std::mutex mutex;
@@ -110,9 +111,8 @@ struct PlantInput : SavedInput {
 
 // The state that a snapshot keeps as it is.
 struct SavedState {
-    Motion motion;       // of the mechanics' nodes, model frame
-    Trend trend;         // empty with one substep
-    BlendOut blend_out;  // offset of the cage from where the mechanics have it
+    Motion motion;  // of the mechanics' nodes, model frame
+    Trend trend;    // empty with one substep
     // Lengths at which fibres pull, over their own, after an entanglement; else empty [-].
     std::vector<double> fibre_give;
     float stretched = 0;        // energy in fibres after the last step; above zero the next one includes them [J]
@@ -126,6 +126,7 @@ struct SavedState {
 struct PlantState : SavedState {
     bool is_compressed = false;
     std::unique_ptr<ModalMotion> modal;      // of a chain in modal motion; else null
+    std::unique_ptr<Blend> blend;            // of how it is seen, after a change of what is simulated; null: none
     std::unique_ptr<Elements> own_elements;  // elements of a plant that has yielded, with its plastic state; else null
     double stepped_by = 0;            // length of the last step, from x_good to here; 0: it was put here since [s]
     std::unique_ptr<AirState> air;    // null until the plant is in air
@@ -150,9 +151,10 @@ struct ContactPush {
 
 // Scratch of the running step: nothing of it outlives the step but memory.
 struct PlantStep {
+    // Kept to reuse their memory; null while the plant is compressed.
+    std::unique_ptr<Loads> loads = std::make_unique<Loads>();
     WorkspacePtr workspace;             // from the pool; refers to system and own elements
     SolveSettings settings;             // the plant's without effects that are off
-    Loads loads;                        // kept to reuse their memory
     VecX x_good, v_good;                // before the step; empty after a healthy batched one: in the history
     std::unique_ptr<ContactPush> push;  // null until contacts are known
     double takes = 1;                   // share of pushes that its responses in this step take at most [-]
@@ -176,6 +178,7 @@ struct PlantView {
     std::unique_ptr<PreviousSurface> previous;              // null: never requested
     mutable VecX cage_x;  // cage nodes if they are not the mechanics' own, model frame [m]
     mutable bool cage_stale = true;
+    mutable std::shared_ptr<const Marks> marks;  // null: never asked for
     bool surface_stale = true;
     uint32_t surface_made = 0;  // number of substeps when it was made
     float surface_back = 0;     // time before the end of the last substep at which the surface is drawn [s]
@@ -289,7 +292,8 @@ void decompress(Plant& plant);
 void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h);
 std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant);
 std::shared_ptr<const ModalBasis> modal_basis_of(const Plant& plant);
-Vec3 air_force(const Plant& plant);  // of the last step, world frame [N]
+const std::shared_ptr<const Marks>& marks_of(const Plant& plant);  // only if the mechanics move the cage
+Vec3 air_force(const Plant& plant);                                // of the last step, world frame [N]
 // Ends forces given by frond_plant_add_force.
 void clear_user_force(Plant& plant);
 // Writes surface_positions and surface_normals as far as the effects ask for them, as they were `back` before the end
@@ -301,6 +305,9 @@ double elastic_energy(const Plant& plant, const VecX& x);
 // Returns the surface vertex nearest to a point of the world.
 int nearest_vertex(const Plant& plant, const Vec3& point);
 Vec3 vertex_position(const Plant& plant, int vertex);  // world frame [m]
+std::vector<Vec3> vertex_positions(const Plant& plant);
+// Returns the position of a point that follows the cage, with the cage's nodes at x.
+Vec3 bound_point(const Plant& plant, const Embedding& embedding, size_t i, const VecX& x);
 // Spring that pulls at a grabbed vertex, as it is solved; the vertex is not on a fragment.
 Spring grab_spring(const Plant& plant, const Grab& grab);
 // Where a grab holds the plant [m], and its force on the plant [N]; world frame. That is the vertex in the mechanics,
@@ -333,8 +340,6 @@ Vec3 node_velocity(const Plant& plant, const VecX& v, int node);
 // Returns the positions of the cage nodes, model frame [m]. The reference holds until the plant moves.
 const VecX& cage_places(const Plant& plant);
 VecX cage_velocities(const Plant& plant);  // [m/s]
-// Returns what is left to blend out at the cage's nodes, extrapolated by a time [m]; empty: nothing.
-VecX blend_offset(const Plant& plant, double ahead);
 // Returns the attachment of a vertex, for forces on it.
 Attachment vertex_attachment(const Plant& plant, int vertex);
 // Returns the attachment of a chain node, if the mechanics move tets.

@@ -20,7 +20,7 @@ Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effe
 // Gathers the forces on nodes, gravity and springs of this step, in the model's frame.
 static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_effects effects) {
     const Quat to_model = plant.rotation.conjugate();
-    Loads& loads = plant.step.loads;
+    Loads& loads = *plant.step.loads;
     loads.gravity = gravity_in(plant, surroundings, effects);
     loads.springs = plant.input.pin_springs;
     loads.guides = &guides_of(plant);
@@ -46,7 +46,8 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
 // Has steps with forces of the host, and those that follow, look back on none: where a force begins or ends, bdf2 would
 // give half a step too little or too much of its momentum.
 static void drop_history_at_forces(Plant& plant) {
-    if (plant.step.loads.force.size() > 0) plant.state.motion.history.valid = plant.state.motion.history.shaken = false;
+    if (plant.step.loads->force.size() > 0)
+        plant.state.motion.history.valid = plant.state.motion.history.shaken = false;
 }
 
 // Makes a part of what is strained beyond its yield plastic.
@@ -71,9 +72,9 @@ static bool is_sound(const Plant& plant) {
 static void solve_from_start(Plant& plant, const SolveSettings& settings, double h) {
     plant.state.motion.x = plant.step.x_good;
     plant.state.motion.v = plant.step.v_good;
-    plant.step.loads.fibres = fibres_of(plant);
+    plant.step.loads->fibres = fibres_of(plant);
     const SolveReport before = plant.report;
-    plant.report = solve_step(*plant.step.workspace, settings, plant.step.loads, h, plant.state.motion);
+    plant.report = solve_step(*plant.step.workspace, settings, *plant.step.loads, h, plant.state.motion);
     plant.report.add_cost(before);
 }
 
@@ -93,13 +94,13 @@ static void minimise(Plant& plant, frond_integrator method, double h, bool from_
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
     plant.trouble |= FROND_TROUBLE_RETRIED;
-    const VecX force = plant.step.loads.force;
+    const VecX force = plant.step.loads->force;
     if (is_pushed(plant)) {
-        plant.step.loads.force = plant.step.push->share / h * plant.step.push->impulse;
-        if (force.size() > 0) plant.step.loads.force += force;
+        plant.step.loads->force = plant.step.push->share / h * plant.step.push->impulse;
+        if (force.size() > 0) plant.step.loads->force += force;
     }
     solve_from_start(plant, settings, h);
-    plant.step.loads.force = force;
+    plant.step.loads->force = force;
     // A step of its own integrator ends as that would, so the next one needs no damping.
     plant.state.motion.history.shaken = method != plant.step.settings.integrator;
 }
@@ -197,7 +198,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     Timer timer;
     apply_pins(plant);
     if (jump_with_pins(plant, JUMP)) plant.trouble |= FROND_TROUBLE_PASSED;
-    plant.step.loads.springs_are_far = lead_pin_springs(plant);
+    plant.step.loads->springs_are_far = lead_pin_springs(plant);
     gather_loads(plant, surroundings, effects);
     plant.ms_user_force = timer.lap();
     gather_air(plant, surroundings, effects, h);
@@ -329,7 +330,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     if (is_pushed(plant) || plant.trouble & (FROND_TROUBLE_RETRIED | FROND_TROUBLE_REWOUND)) look_at_fibres(plant);
     carry_stumps(plant);
     if (plant.follow) unwind(motion);
-    pass_time(plant.state.blend_out, h);
+    pass_blend_time(plant, h);
     moved(plant);
     return_workspace(plant);
 }

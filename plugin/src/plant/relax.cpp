@@ -50,7 +50,7 @@ static bool take_steps(Plant& plant, SolveSettings& settings, double bound) {
     double h = 1.0 / 60;                         // [s]
     Motion& motion = plant.state.motion;
     Loads loads;
-    loads.gravity = plant.step.loads.gravity;
+    loads.gravity = plant.step.loads->gravity;
     loads.guides = &guides_of(plant);
     loads.fibres = fibres_of(plant);
     if (loads.gravity.isZero(0) && plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);

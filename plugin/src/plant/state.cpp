@@ -1,6 +1,7 @@
 // Reading and setting a plant's state: energy, nodes, the force of a grab.
 #include "core/assert.hpp"
 #include "plant/pins.hpp"
+#include "plant/seen.hpp"
 
 namespace frond {
 
@@ -46,7 +47,7 @@ static bool stands_where_made(const Plant& plant, const VecX& x) {
 // Lets steps go on from a motion that was set.
 static void go_on_anew(Plant& plant) {
     plant.state.motion.history.valid = plant.state.motion.history.shaken = false;
-    plant.state.blend_out = {};
+    end_blend(plant);
     plant.view.lead = plant.state.stepped_by = 0;
     if (plant.follow) carry_supports(plant);
     plant.input.pins_changed = true;
@@ -122,23 +123,16 @@ int node_count_of(const Plant& plant) {
     return plant.nodes->count();
 }
 
-VecX blend_offset(const Plant& plant, double ahead) {
-    if (is_over(plant.state.blend_out)) return {};
-    VecX offset = VecX::Zero(3 * node_count_of(plant)), rate = offset;
-    add_offset(plant.state.blend_out, offset);
-    add_rate(plant.state.blend_out, rate);
-    return offset + ahead * rate;
-}
-
 const VecX& cage_places(const Plant& plant) {
-    if (!plant.follow && is_over(plant.state.blend_out) && plant.view.lead == 0) return plant.state.motion.x;
+    const VecX& x = plant.state.motion.x;
+    if (!plant.follow && !blends(plant) && plant.view.lead == 0) return x;
     if (plant.view.cage_stale) {
         if (plant.follow)
-            follow_places(*plant.follow, plant.state.motion.x, plant.view.cage_x);
+            follow_places(*plant.follow, x, plant.view.cage_x);
         else
-            plant.view.cage_x = plant.state.motion.x;
+            plant.view.cage_x = x;
         FROND_ASSERT(plant.view.cage_x.size() == 3 * node_count_of(plant));
-        add_offset(plant.state.blend_out, plant.view.cage_x);
+        if (blends(plant)) add_offset(plant.state.blend->nodes, plant.view.cage_x);
         if (plant.view.lead > 0) plant.view.cage_x += plant.view.lead * cage_velocities(plant);
     }
     plant.view.cage_stale = false;
@@ -159,7 +153,7 @@ Vec3 node_velocity(const Plant& plant, const VecX& v, int node) {
 VecX cage_velocities(const Plant& plant) {
     VecX velocities = plant.state.motion.v;
     if (plant.follow) follow_velocities(*plant.follow, plant.state.motion.x, plant.state.motion.v, velocities);
-    add_rate(plant.state.blend_out, velocities);
+    if (blends(plant)) add_rate(plant.state.blend->nodes, velocities);
     return velocities;
 }
 

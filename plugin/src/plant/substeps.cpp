@@ -37,9 +37,9 @@ double local_error(Plant& plant, const VecX& x, const VecX& v, double h) {
 
 // Solves with fibres where one was taut.
 SolveReport solve_with_fibres(Plant& plant, double h) {
-    if (plant.state.stretched > 0) plant.step.loads.fibres = fibres_of(plant);
+    if (plant.state.stretched > 0) plant.step.loads->fibres = fibres_of(plant);
     const SolveReport report =
-        solve_step(*plant.step.workspace, plant.step.settings, plant.step.loads, h, plant.state.motion);
+        solve_step(*plant.step.workspace, plant.step.settings, *plant.step.loads, h, plant.state.motion);
     look_at_fibres(plant);
     return report;
 }

@@ -39,7 +39,7 @@ void give_supports(Plant& plant, std::vector<Support> list) {
     supports.list = std::move(list);
     plant.input.pins_changed = true;
     plant.input.supports = supports.list.empty() ? nullptr : std::make_unique<const Supports>(std::move(supports));
-    plant.step.loads.guides = &guides_of(plant);
+    plant.step.loads->guides = &guides_of(plant);
 }
 
 const Support* support_of(const Plant& plant, int chain_node) {

@@ -10,7 +10,7 @@
 #include "core/lane_vectors.hpp"
 #include "core/timer.hpp"
 #include "mechanics/rotation.hpp"
-#include "plant/plant.hpp"
+#include "plant/seen.hpp"
 
 namespace frond {
 
@@ -24,8 +24,8 @@ struct Drawn {
     Mat3 turn;
     Vec3 shift;
 };
-bool belongs(const std::vector<int>& of, size_t i, const Drawn& drawn) {
-    return (of.empty() ? -1 : of[i]) == drawn.fragment;
+bool belongs(const std::vector<int>& of, size_t i, int part) {
+    return (of.empty() ? -1 : of[i]) == part;
 }
 
 // A matrix, by columns.
@@ -55,16 +55,13 @@ struct PlaceVertices {
     const Drawn& drawn;
     const std::vector<Quad>& nodes;
     float* positions;
-    bool add;  // to what is there
     template <class>
     FROND_INLINE void run() const {
         const Embedding& embedding = plant.model->embedding;
         const std::vector<Tet>& tets = plant.model->cage.tets;
         for (size_t v = 0; v < embedding.tet.size(); v++) {
-            if (!belongs(plant.state.parting->of_vertex, v, drawn)) continue;
-            const float* there = positions + 3 * v;
+            if (!belongs(plant.state.parting->of_vertex, v, drawn.fragment)) continue;
             FourLanes sum = {};
-            if (add) sum = FourLanes{there[0], there[1], there[2], 0};
             const auto add_node = [&](int node, double weight)
                                       FROND_INLINED { sum += weight * load(nodes[size_t(node)]); };
             if (plant.nodes->order == 1) {
@@ -159,7 +156,7 @@ struct AddCofactors {
         int group[4], count = 0;
         const size_t tets = plant.model->cage.tets.size();
         for (size_t e = 0; e < tets; e++) {
-            if (!belongs(plant.state.parting->of_tet, e, drawn)) continue;
+            if (!belongs(plant.state.parting->of_tet, e, drawn.fragment)) continue;
             if (plant.nodes->order == 2) {
                 add_quadratic(e);
                 continue;
@@ -184,7 +181,7 @@ struct TurnNormals {
     FROND_INLINE void run() const {
         const Model& model = *plant.model;
         for (size_t v = 0; v < model.surface.normals.size(); v++) {
-            if (!belongs(plant.state.parting->of_vertex, v, drawn)) continue;
+            if (!belongs(plant.state.parting->of_vertex, v, drawn.fragment)) continue;
             const Tet& tet = model.cage.tets[size_t(model.embedding.tet[v])];
             const Vec3f& rest = model.surface.normals[v];
             FourLanes columns[3] = {};
@@ -227,24 +224,43 @@ Drawn drawn_fragment(const Fragment& fragment, int number, double back) {
     return {number, follow, x, turned * fragment.turn, turned * (fragment.shift - fragment.centre) + centre};
 }
 
-// Writes the vertices of one part, and their normals. `nodes` and `cofactors` are room to work in.
-void draw_in_cage(Plant& plant, const Drawn& drawn, bool with_normals, std::vector<Quad>& nodes,
-                  std::vector<Columns>& cofactors) {
-    nodes.resize(size_t(drawn.x.size() / 3));
+// Writes the vertices of one part, and their normals if they are wanted.
+void draw_in_cage(Plant& plant, const Drawn& drawn, float* positions, float* normals) {
+    std::vector<Quad> nodes(size_t(drawn.x.size() / 3));
     run_in_lanes(PlaceNodes{drawn, nodes});
-    run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.view.surface_positions.data(), false});
-    if (!with_normals) return;
+    run_in_lanes(PlaceVertices{plant, drawn, nodes, positions});
+    if (!normals) return;
     const Timer timer;
-    cofactors.assign(plant.model->cage.nodes.size(), Columns());
+    std::vector<Columns> cofactors(plant.model->cage.nodes.size(), Columns());
     run_in_lanes(AddCofactors{plant, drawn, nodes, cofactors});
-    run_in_lanes(TurnNormals{plant, drawn, cofactors, plant.view.surface_normals.data()});
+    run_in_lanes(TurnNormals{plant, drawn, cofactors, normals});
     plant.ms_normals += timer.ms();
 }
 
-void draw_on_chain(Plant& plant, const Drawn& drawn, bool with_normals) {
+void draw_on_chain(Plant& plant, const Drawn& drawn, float* positions, float* normals) {
     draw_skin(drawn.follow->skin, {drawn.x, drawn.turn, drawn.shift, plant.state.parting->of_vertex, drawn.fragment,
-                                   plant.model->surface.normals, plant.view.surface_positions.data(),
-                                   with_normals ? plant.view.surface_normals.data() : nullptr});
+                                   plant.model->surface.normals, positions, normals});
+}
+
+// Adds to a drawn surface what it has beside what the mechanics carry. Normals stay as they are.
+void add_blend(const Plant& plant, const Look& look, const Mat3& turn, float* positions) {
+    const size_t count = plant.model->surface.positions.size();
+    std::vector<float> seen, own;
+    if (look.own.size() > 0) {
+        const auto carried = [&](const VecX& chain, std::vector<float>& to) {
+            to.resize(3 * count);
+            draw_skin(marks_of(plant)->follow->skin, {chain, turn, Vec3::Zero(), plant.state.parting->of_vertex, -1,
+                                                      plant.model->surface.normals, to.data(), nullptr});
+        };
+        carried(look.chain, seen);
+        carried(look.own, own);
+    }
+    for (size_t v = 0; v < count; v++) {
+        if (!belongs(plant.state.parting->of_vertex, v, -1)) continue;
+        for (size_t k = 3 * v; k < 3 * v + 3 && !seen.empty(); k++) positions[k] += seen[k] - own[k];
+        if (look.left.size() > 0)
+            Eigen::Map<Vec3f>(positions + 3 * v) += (turn * point(look.left, int(v))).cast<float>();
+    }
 }
 
 }  // namespace
@@ -255,26 +271,17 @@ void update_surface(Plant& plant, frond_effects effects, double back) {
     plant.ms_normals = 0;
     plant.view.surface_positions.resize(3 * vertex_count);
     plant.view.surface_normals.resize(3 * vertex_count);
-    VecX x = state_then(plant, back);
-    const VecX offset = blend_offset(plant, plant.view.lead - back);
-    if (!plant.follow && offset.size() > 0) x += offset;
-    std::vector<Drawn> list = {{-1, plant.follow.get(), x, plant.rotation.toRotationMatrix(), plant.position}};
-    for (const Fragment& fragment : plant.state.fragments)
-        list.push_back(drawn_fragment(fragment, int(list.size()) - 1, back));
-    std::vector<Quad> nodes;
-    std::vector<Columns> cofactors;
-    for (const Drawn& drawn : list) {
-        if (drawn.follow)
-            draw_on_chain(plant, drawn, effects & FROND_EFFECT_NORMALS);
-        else
-            draw_in_cage(plant, drawn, effects & FROND_EFFECT_NORMALS, nodes, cofactors);
-    }
-    if (plant.follow && offset.size() > 0) {
-        const Drawn drawn = {-1, nullptr, offset, list.front().turn, Vec3::Zero()};
-        nodes.resize(size_t(offset.size() / 3));
-        run_in_lanes(PlaceNodes{drawn, nodes});
-        run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.view.surface_positions.data(), true});
-    }
+    float *positions = plant.view.surface_positions.data(),
+          *normals = effects & FROND_EFFECT_NORMALS ? plant.view.surface_normals.data() : nullptr;
+    const auto draw = [&](const Drawn& drawn) {
+        (drawn.follow ? draw_on_chain : draw_in_cage)(plant, drawn, positions, normals);
+    };
+    const Mat3 turn = plant.rotation.toRotationMatrix();
+    const Look look = look_of(plant, state_then(plant, back), plant.view.lead - back);
+    draw({-1, plant.follow.get(), plant.follow ? look.chain : look.cage, turn, plant.position});
+    if (blends(plant)) add_blend(plant, look, turn, positions);
+    for (size_t i = 0; i < plant.state.fragments.size(); i++)
+        draw(drawn_fragment(plant.state.fragments[i], int(i), back));
     plant.view.surface_stale = false;
     plant.view.surface_back = float(back);
     plant.ms_surface = timer.ms();

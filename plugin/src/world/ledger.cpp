@@ -50,7 +50,7 @@ void add_jump(const Plant& plant, const VecX& before, double& work) {
     if (before.size() != plant.step.x_good.size() || are_same(before, plant.step.x_good)) return;
     const VecX& mass = node_mass_of(*plant.system);
     for (int i = 0; i < mass.size(); i++)
-        work -= mass[i] * plant.step.loads.gravity.dot(point(plant.step.x_good, i) - point(before, i));
+        work -= mass[i] * plant.step.loads->gravity.dot(point(plant.step.x_good, i) - point(before, i));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/assert.hpp"
 #include "core/lists.hpp"
 #include "core/union_find.hpp"
+#include "plant/seen.hpp"
 #include "world/convert.hpp"
 #include "world/show.hpp"
 #include "world/world.hpp"
@@ -166,8 +167,7 @@ void watch(const World& world, PlantBody& body, double h) {
     VecX modal(2);
     if (plant.state.modal) modal = Eigen::Map<const Eigen::Vector2d>(modal_reach(plant).data());
     const VecX& x = plant.state.modal ? modal : plant.state.motion.x;
-    const bool blends_out =
-        !is_over(plant.state.blend_out) || (plant.state.modal && !is_over(plant.state.modal->blend_out));
+    const bool blends_out = blends(plant) || (plant.state.modal && !is_over(plant.state.modal->blend_out));
     const bool stirs = plant.input.has_user_force || plant.trouble & FROND_TROUBLE_REWOUND ||
                        plant.state.recovers_for > 0 || !plant.state.fragments.empty() || blends_out;
     if (!stirs && are_within(x, rest.places, world.sleep_distance)) {

@@ -36,7 +36,8 @@ struct SavedPlant {
     SavedInput input;
     SavedState state;
     double lead;
-    std::vector<ModalState> modal;  // none or one
+    std::vector<Blend> blend;       // none or one
+    std::vector<ModalState> modal;  // likewise
     bool has_own_elements;
     std::vector<double> plastic;
     std::vector<Support> supports;

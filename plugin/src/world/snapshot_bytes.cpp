@@ -70,6 +70,10 @@ static void visit_blend_out(Archive& a, BlendOut& blend_out) {
     a(blend_out.offset), a(blend_out.rate), a(blend_out.time);
 }
 
+static void visit(Archive& a, Blend& blend) {
+    for (BlendOut* part : {&blend.turns, &blend.surface, &blend.nodes}) visit_blend_out(a, *part);
+}
+
 static void visit(Archive& a, ModalState& modal) {
     a(modal.place), a(modal.speed), a(modal.rest), a(modal.damping), a(modal.since), a(modal.comes_to_rest),
         a(modal.fresh);
@@ -100,8 +104,7 @@ static void visit(Archive& a, SavedPlant& plant) {
     SavedState& state = plant.state;
     visit_motion(a, state.motion);
     a(state.trend.v_end), a(state.trend.rate);
-    visit_blend_out(a, state.blend_out);
-    a(plant.lead), a(plant.modal), a(plant.has_own_elements), a(plant.plastic), a(state.fibre_give);
+    a(plant.lead), a(plant.blend), a(plant.modal), a(plant.has_own_elements), a(plant.plastic), a(state.fibre_give);
     a(state.stretched);
     a(input.pinned), a(input.pin_target), a(input.anchor), a(plant.supports);
     a(input.pins_changed), a(input.pins_are_own), a(input.has_user_force), a(state.is_touched), a(state.is_entangled);

@@ -217,7 +217,12 @@ void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_c
     check_motion(saved, become);
     check_plastic(saved, become);
     check_pins(saved, plant);
-    check_blend_out(saved.state.blend_out, 3 * Eigen::Index(node_count_of(plant)));
+    if (saved.blend.size() > 1) damaged("blend-out");
+    for (const Blend& blend : saved.blend) {
+        check_blend_out(blend.turns, 6 * Eigen::Index(plant.model->chain.nodes.size()));
+        check_blend_out(blend.surface, 3 * Eigen::Index(plant.model->surface.positions.size()));
+        check_blend_out(blend.nodes, 3 * Eigen::Index(node_count_of(plant)));
+    }
     check_numbers(saved.state.fibre_give, "fibres");
     if (saved.modal.size() > 1 || (!saved.modal.empty() && !mechanics(saved.which, plant.nodes->order).moves_chain))
         damaged("sway");

@@ -54,6 +54,7 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     const size_t fibres = plant.fibres ? plant.fibres->list.size() : 0;
     if (plant.state.fibre_give.size() != fibres) plant.state.fibre_give.clear();
     plant.view.lead = saved.lead;
+    plant.state.blend = saved.blend.empty() ? nullptr : std::make_unique<Blend>(std::move(saved.blend.front()));
     plant.state.stepped_by = 0;
     if (saved.has_own_elements || plant.state.own_elements) set_plastic(plant, saved.plastic);
     plant.input.forces = nullptr;

@@ -46,6 +46,7 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     saved.state = plant.state;
     add_end(saved.state.motion);
     saved.lead = plant.view.lead;
+    if (plant.state.blend) saved.blend.push_back(*plant.state.blend);
     if (plant.state.modal) saved.modal.push_back(*plant.state.modal);
     saved.has_own_elements = plant.state.own_elements != nullptr;
     saved.plastic = plastic_of(plant);
