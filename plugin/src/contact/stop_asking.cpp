@@ -32,6 +32,10 @@ double gain_by(const std::vector<Vec3>& impulses, const CoupledRows& coupled) {
 bool asks(const PlantContact* contact) {
     return contact->lacking > 0;
 }
+// A body that is led does what work its way takes.
+bool asks(const Contact* contact) {
+    return contact->shortfall.lacking > 0 && is_free(*contact->other);
+}
 // A kinematic body that moves does what work its way takes; one at rest parts as a static one does. Hosts move ghost
 // objects too, and Bullet knows no speed of these.
 bool parts(const Contact* contact) {
@@ -71,8 +75,9 @@ std::array<double, 2> most_parting(const ContactIsland& island, double h) {
 }  // namespace
 
 bool stop_asking(const ContactIsland& island, const CoupledRows& coupled, const std::vector<Vec3>& impulses, double h) {
-    if (std::none_of(island.with_plants.begin(), island.with_plants.end(), asks) &&
-        std::none_of(island.with_bodies.begin(), island.with_bodies.end(), parts))
+    if (std::none_of(island.with_plants.begin(), island.with_plants.end(), [](auto* of) { return asks(of); }) &&
+        std::none_of(island.with_bodies.begin(), island.with_bodies.end(),
+                     [](auto* of) { return asks(of) || parts(of); }))
         return false;
     const auto [of_plants, of_all] = most_parting(island, h);
     if (gain_by(impulses, coupled) <= of_plants && work_of_parting(island, impulses, coupled) <= of_all) return false;
@@ -80,8 +85,12 @@ bool stop_asking(const ContactIsland& island, const CoupledRows& coupled, const 
         contact->lacking = 0;
         contact->may_ask = false;
     }
-    for (Contact* contact : island.with_bodies)
+    for (Contact* contact : island.with_bodies) {
         if (parts(contact)) contact->may_part = false;
+        if (!asks(contact)) continue;
+        contact->shortfall.lacking = 0;
+        contact->shortfall.may_ask = false;
+    }
     return true;
 }
 

@@ -11,7 +11,7 @@ inline namespace FROND_BULLET_PRECISION {
 
 bool Shortfall::ask_for(double now) {
     constexpr double HELPS = 0.98, LEAST = 0.05;  // over what was left; share of what was asked that is done [-]
-    const bool helps = now < HELPS * left;
+    const bool helps = may_ask && now < HELPS * left;
     const double done = asked > 0 ? std::clamp((left - now) / asked, LEAST, 1.0) : 1;
     left = now;
     asked = helps ? now / done : 0;

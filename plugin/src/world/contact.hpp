@@ -16,6 +16,7 @@ struct Shortfall {
     double lacking = 0;      // what is asked in all [m]
     double asked = 0;        // what was asked last [m]
     double left = INFINITY;  // by how much the last response fell short [m]
+    bool may_ask = true;     // as far as no energy comes from it
     // Asks for what `now` is left [m], by as much more as the last response did less than it was asked for. Returns
     // whether that is of use.
     bool ask_for(double now);
