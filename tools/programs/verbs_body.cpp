@@ -39,7 +39,9 @@ void write_body(Source& s, const Operation& o) {
     const std::string name = "body_def_" + std::to_string(o.id);
     const frond_rigid_def def = body_def_of(o);
     s.line("frond_rigid_def %s = frond_default_rigid_def();", name.c_str());
-    s.fields(name, o, {{"shape|frond_shape", "shape"}, {"mass", "mass"}, {"friction", "friction"}});
+    s.fields(name, o, {{"shape|frond_shape", "shape"}});
+    s.line("%s.mass = %s, %s.friction = %s;", name.c_str(), text_of(def.mass).c_str(), name.c_str(),
+           text_of(def.friction).c_str());
     s.line("%s.size = vec(%s);", name.c_str(), vec_text(def.size).c_str());
     s.line("%s.state.position = vec(%s);", name.c_str(), vec_text(def.state.position).c_str());
     s.line("%s.state.velocity = vec(%s);", name.c_str(), vec_text(def.state.velocity).c_str());

@@ -197,8 +197,9 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     History& history = motion.history;
     VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
     const bool has_fibres = is_in(step.with_fibres | looks.taut), goes_on = is_in(looks.going_on);
+    plant.step.starts_anew = !plant.step.looks_back && !plant.state.is_touched;
     const bool is_asked = is_in(looks.off_course | looks.going_on | step.wound) || has_fibres || may_inflate(plant) ||
-                          step.inverted[size_t(lane)] > 0;
+                          plant.step.starts_anew || step.inverted[size_t(lane)] > 0;
     if (is_asked) {
         plant.step.x_good = motion.x;
         plant.step.v_good = motion.v;
@@ -206,7 +207,7 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     motion.x.swap(x);
     motion.v.swap(v);
     take_loads(plant, step, lane, effects);
-    plant.step.is_off_course = plant.step.starts_anew = false;
+    plant.step.is_off_course = false;
     plant.step.push = nullptr;
     plant.step.takes = 1;
     const float stretched = plant.state.stretched;

@@ -213,6 +213,14 @@ int way_along(const Contact& contact) {
     return along > least ? 1 : along < -least ? -1 : 0;
 }
 
+// Returns whether the begin of a capsule that a body pushes away from it is buried in that body.
+bool is_buried(const Contact& contact) {
+    const Plant& plant = *contact.plant->plant;
+    const int begin = plant.model->capsules[size_t(contact.capsule)][0];
+    const Vec3 place = plant.to_world(plant.view.chain_positions[size_t(begin)]);
+    return contact.normal.dot(place - contact.on_other) < -radius_of(*contact.plant, contact.capsule);
+}
+
 // Returns how pins and supports hold a capsule: 2 at one of its own nodes, 1 farther down towards the root, 0 not at
 // all.
 int how_held(const Plant& plant, int capsule) {
@@ -241,7 +249,7 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
         const int way = way_along(contact);
         if (way == 0) continue;
         const double radius = radius_of(*contact.plant, contact.capsule);
-        const bool goes_through = contact.gap < -AXIS * radius;
+        const bool goes_through = contact.gap < -AXIS * radius || (way > 0 && is_buried(contact));
         const bool may_lift = way > 0 && contact.other->isKinematicObject();  // static bodies lift nothing
         if (!goes_through && !may_lift) continue;
         if (how_held(*contact.plant->plant, contact.capsule) >= (goes_through ? 1 : 2)) useless.push_back(contact);

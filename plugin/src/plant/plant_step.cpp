@@ -210,8 +210,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     // Solve.
     drop_history_at_forces(plant);
     motion.history.shaken |= plant.state.is_touched;
-    plant.step.starts_anew =
-        integrator(plant.input.settings.integrator).looks_back && !motion.history.valid && !motion.history.shaken;
+    plant.step.starts_anew = integrator(plant.input.settings.integrator).looks_back && !motion.history.valid;
     plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && fibre_becomes_taut(plant)) stop_by_fibres(plant, h);
     if (!plant.report.ok || !is_plausible(plant, h)) solve_again(plant, h);
