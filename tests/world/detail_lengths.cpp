@@ -136,6 +136,27 @@ TEST_P(Kicks, HardlyDrawRodsOutThatBecomeACage) {
     hand_over(10, 0, GetParam().cage);
 }
 
+TEST_P(Kicks, LeaveNothingBehindInAPlantThatGoesFar) {
+    Stand stand;
+    stand.load_corn();
+    const frond_plant plant = stand.add(stand.plant_def(), {0, 0, 0});
+    const frond_detail_def detail = frond_default_detail_def();
+    must(frond_world_set_detail(stand.world, &detail));
+    must(frond_world_set_viewer(stand.world, {0, 1, 0}));
+    stand.steps(5);
+    frond_surface_view view = {};
+    must(frond_plant_get_surface(plant, &view));
+    const std::vector<float> stood(view.positions, view.positions + 3 * view.vertex_count);
+    kick(plant, GetParam().speed);
+    stand.steps(30);
+    must(frond_world_set_viewer(stand.world, {detail.modal_from + 1, 1, 0}));
+    stand.steps(900);
+    must(frond_plant_get_surface(plant, &view));
+    float most = 0;
+    for (size_t k = 0; k < stood.size(); k++) most = std::max(most, std::abs(view.positions[k] - stood[k]));
+    EXPECT_LT(most, 0.001f);
+}
+
 INSTANTIATE_TEST_SUITE_P(Detail, Kicks,
                          testing::Values(Kick{0.3, 1.05, 1.15}, Kick{1, 1.05, 1.3}, Kick{3, 1.2, 1.65},
                                          Kick{6, 1.2, 2.2}));

@@ -11,7 +11,7 @@
 #include "core/assert.hpp"
 #include "core/elementary.hpp"
 #include "mechanics/rotation.hpp"
-#include "plant/plant.hpp"
+#include "plant/seen.hpp"
 
 namespace frond {
 
@@ -218,6 +218,7 @@ void step_modal(Plant& plant, const Surroundings& surroundings, double h, bool a
     modal.since += h;
     modal.stale = plant.view.cage_stale = plant.view.surface_stale = true;
     pass_time(modal.blend_out, h);
+    pass_blend_time(plant, h);
     if (!ask && !modal.fresh) return;
     modal.fresh = false;
     for (size_t k = 0; k < 2; k++) {
