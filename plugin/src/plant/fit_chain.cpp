@@ -56,7 +56,7 @@ void fit_chain_roughly(const Carried& carried, const Model& model, const VecX& c
             to[size_t(attachment.node[k]) / 2].push_back(point(cage_x, int(n)));
         }
     }
-    // A root that too few nodes determine moves with the whole cage.
+    // A root that too few points determine moves with all of them.
     std::vector<Vec3> all_from, all_to;
     for (size_t i = 0; i < count; i++) {
         all_from.insert(all_from.end(), from[i].begin(), from[i].end());

@@ -97,7 +97,6 @@ VecX modelled_terms(const Plant& plant) {
 // Returns how `of` changes where x moves by v.
 template <class Of>
 VecX rate_of(const Plant& plant, const Of& of, const VecX& x, const VecX& v) {
-    constexpr double SHORT = 1e-5;  // [s]
     return (of(plant, x + SHORT * v) - of(plant, x - SHORT * v)) / (2 * SHORT);
 }
 

@@ -94,8 +94,6 @@ static VecX surface_of(const Plant& plant) {
     return places;
 }
 
-constexpr double SHORT = 1e-5;  // time over which rates are found [s]
-
 Seen seen_of(const Plant& plant) {
     const Motion& motion = plant.state.motion;
     Seen seen = {cage_places(plant), cage_velocities(plant), surface_of(plant), {}, {}};

@@ -14,11 +14,14 @@ struct Marks {
 };
 Marks make_marks(const Model& model, std::shared_ptr<const Follow> follow);
 
+constexpr double SHORT = 1e-5;  // time over which rates are found [s]
+
 // Shape and motion of a plant as it is seen, model frame.
 struct Seen {
-    VecX places, velocities;   // of the cage's nodes [m], [m/s]
-    VecX surface;              // positions of its vertices [m]
-    VecX chain, chain_moving;  // positions and rotations of the chain, and those a SHORT time later
+    VecX places, velocities;  // of the cage's nodes [m], [m/s]
+    VecX surface;             // positions of its vertices [m]
+    // Positions and rotations of the chain, and those SHORT later: rotation vectors of two mechanics do not subtract.
+    VecX chain, chain_moving;
 };
 Seen seen_of(const Plant& plant);
 VecX chain_rate(const Seen& seen);  // rate of the chain's positions and rotations
