@@ -59,7 +59,15 @@ void run_sweeps(const StabilityOptions& options) {
     const auto is_red = [](const stability::SweptCell& cell) {
         return cell.verdict.color == stability::Color::RED && !stability::is_known_to_pass(cell.sweep);
     };
-    if (std::any_of(cells.begin(), cells.end(), is_red)) throw SceneError("something passes through a plant");
+    int red = 0;
+    for (const stability::SweptCell& cell : cells) {
+        if (!is_red(cell)) continue;
+        std::printf("%s, %s, 1/%.0f s, %g m/s: %s\n", stability::name_of(cell.sweep.meeting),
+                    frond_mechanics_name(cell.sweep.mechanics), 1 / cell.sweep.dt, cell.sweep.speed,
+                    cell.verdict.text.c_str());
+        red++;
+    }
+    if (red > 0) throw SceneError(std::to_string(red) + " sweeps failed");
 }
 
 void run_stability(StabilityOptions& options) {

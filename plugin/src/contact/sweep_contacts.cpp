@@ -129,11 +129,27 @@ std::vector<PlantBody*> plants_near(Search& search, const btCollisionObject& obj
     return plants;
 }
 
+constexpr double PASSED = 0.005;  // depth from which on a body has passed [m]
+
+// Returns the share of a motion within which a body goes through no plant as these stand.
+double way_among(Search& search, const std::vector<PlantBody*>& plants, const btRigidBody& rigid,
+                 const ObjectMotion& motion) {
+    double share = 1;
+    for (PlantBody* body : plants) {
+        if (!(search.world.effects & body->plant->input.effects & FROND_EFFECT_TWO_WAY)) continue;
+        PlantMotion stands;
+        stands.ways.assign(body->plant->view.chain_positions.size(), Vec3::Zero());
+        find_hits(*body, stands, rigid, motion, [&](const Hit& hit) {
+            if (hit.impact.time > 0 && depth_after(hit) > PASSED) share = std::min(share, hit.impact.time);
+        });
+    }
+    return share;
+}
+
 // Puts a free body back to where it met a plant that it has passed since, as Bullet's own continuous detection does,
 // and on from there as the plant went. That happens to new bodies, and to those that something else turned aside.
 void put_back_if_passed(Search& search, const std::vector<PlantBody*>& plants, btRigidBody& rigid,
                         const ObjectMotion& past) {
-    constexpr double PASSED = 0.005;  // depth from which a body is put back [m]
     double met = 1;
     Vec3 carried = Vec3::Zero();  // from there [m]
     for (PlantBody* body : plants) {
@@ -149,9 +165,9 @@ void put_back_if_passed(Search& search, const std::vector<PlantBody*>& plants, b
         });
     }
     if (met == 1) return;
-    btTransform place = moved(past.from, past.way, past.turn, met);
-    place.setOrigin(place.getOrigin() + to_bullet(carried));
-    rigid.proceedToTransform(place);
+    const btTransform place = moved(past.from, past.way, past.turn, met);
+    const double share = way_among(search, plants, rigid, {place, carried});
+    rigid.proceedToTransform(moved(place, carried, Vec3::Zero(), share));
     search.world.bullet->updateSingleAabb(&rigid);
 }
 
