@@ -155,12 +155,12 @@ double behind(const Contact& contact, double h) {
     return contact.normal.dot(h * contact.pushed_on - plant.rotation * way) - contact.gap;
 }
 
-// Has a contact ask for more where the plant's response, which is linear, leaves it in the way of a body that is led,
-// or of a free one, as long as that helps: what the plant cannot do, a free body does. Free bodies that overlap it
-// already part from it slowly, but come no deeper. Links would turn what is asked beyond a linear response into spin.
+// Has a contact ask for more where the plant's response, which is linear, leaves it in the way of a body, as long as
+// that helps: what the plant cannot do, a free body does. What overlaps already parts slowly, unless the body is led,
+// but comes no deeper. Links would turn what is asked beyond a linear response into spin.
 bool ask_for_more(Contact& contact, double h) {
     const bool is_led = is_carried_on(contact);
-    if (!(is_led || is_free(*contact.other)) || !has_step(*contact.plant)) return false;
+    if (!btRigidBody::upcast(contact.other) || !has_step(*contact.plant)) return false;
     const double now = behind(contact, h) + (is_led ? 0 : std::min(contact.gap, 0.0));
     if (now < least_miss(*contact.plant, contact.capsule)) return false;
     return contact.shortfall.ask_for(now);

@@ -198,6 +198,22 @@ Given* standing_answer(Responses& all, const std::vector<int>& given_of, const C
     return given.plants.size() == island.plants.size() && given.contacts == contacts_of(island) ? &given : nullptr;
 }
 
+// Responses of plants that nothing pushed yet go on from their step as it was solved again, for it had not been looked
+// at before.
+void find_free_again(Waiting& waiting, const std::vector<ContactIsland>& islands, const std::vector<size_t>& open,
+                     const std::vector<Given>& given) {
+    std::vector<const PlantBody*> unpushed;
+    for (const size_t i : open)
+        if (given[i].rows.empty()) unpushed.insert(unpushed.end(), islands[i].plants.begin(), islands[i].plants.end());
+    std::sort(unpushed.begin(), unpushed.end());
+    for (size_t i = 0; i < waiting.bodies.size(); i++) {
+        const PlantBody* body = waiting.bodies[i];
+        if (body->plant->trouble & FROND_TROUBLE_RETRIED && !(waiting.steps[i].trouble & FROND_TROUBLE_RETRIED) &&
+            std::binary_search(unpushed.begin(), unpushed.end(), body))
+            waiting.steps[i] = free_step(*body->plant);
+    }
+}
+
 // Answers the islands that have no standing answer.
 void respond_again(World& world, const ResponseRow& response, double h, Waiting& waiting, Responses& all) {
     const std::vector<ContactIsland> islands = find_contact_islands(world);
@@ -230,6 +246,7 @@ void respond_again(World& world, const ResponseRow& response, double h, Waiting&
         to.contacts = contacts_of(island);
         to.couplings = couplings + squared(double(to.rows.size()));
     });
+    find_free_again(waiting, islands, open, given);
     for (const size_t i : open) {
         const std::vector<Contact*>& contacts = islands[i].with_bodies;
         const bool is_led = std::any_of(contacts.begin(), contacts.end(), [](Contact* c) { return is_carried_on(*c); });

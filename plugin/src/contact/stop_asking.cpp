@@ -5,6 +5,7 @@
 #include <array>
 
 #include "contact/contact_body.hpp"
+#include "contact/keep_apart.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -34,7 +35,7 @@ bool asks(const PlantContact* contact) {
 }
 // A body that is led does what work its way takes.
 bool asks(const Contact* contact) {
-    return contact->shortfall.lacking > 0 && is_free(*contact->other);
+    return contact->shortfall.lacking > 0 && !is_carried_on(*contact);
 }
 // A kinematic body that moves does what work its way takes; one at rest parts as a static one does. Hosts move ghost
 // objects too, and Bullet knows no speed of these.
