@@ -29,7 +29,7 @@ void count_work_of_bodies(const World& world, const std::vector<ContactRow>& row
         const bool is_slowed = is_movable(at) && pushes_back(world, *at.plants[0]);
         const Vec3 mean = is_slowed ? Vec3(0.5 * (velocity + velocity_after(rows, impulses, at))) : velocity;
         const ContactPush* push = at.plants[0]->plant->step.push.get();
-        const double taken = is_slowed || !push ? 1 : push->share * push->gone;
+        const double taken = is_slowed || !push ? 1 : push->gone;
         *at.work = taken * impulses[i].dot(mean + at.touch.wanted);
     }
 }

@@ -46,8 +46,8 @@ double share_of_body(const World& world, const std::vector<ContactRow>& rows, co
         FROND_ASSERT(plant.step.push);
         const Touch& touch = rows[i].touch;
         const Vec3 velocity = way_of_touch(plant, rows[i].touches[0]) / h;
-        taken += plant.step.push->share * on_body.dot(velocity - touch.wanted);
-        parted -= plant.step.push->share * std::max(0.0, touch.bias_velocity) * on_body.dot(touch.normal);
+        taken += on_body.dot(velocity - touch.wanted);
+        parted -= std::max(0.0, touch.bias_velocity) * on_body.dot(touch.normal);
     }
     // A plant that is held back asks a heavy body in it for ever more.
     const btRigidBody* rigid = rows[body[0]].contact_body.rigid;

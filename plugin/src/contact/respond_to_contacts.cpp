@@ -131,20 +131,22 @@ void take_back(Waiting& waiting, size_t i) {
 }
 
 // Shortens impulses to what both of their sides take, as a plant that turns away from what pushes it takes a share of
-// its push alone: no energy comes from between two plants.
+// its push alone: no energy comes from between two plants. Plants that are pushed less may turn away in their turn; in
+// the end nothing pushes them.
 void level_pushes(const ContactIsland& island, Given& given, Waiting& waiting) {
-    constexpr int MOST = 4;  // rounds: plants that are pushed less may turn away in their turn
+    constexpr int MOST = 4;  // rounds of shares
     const auto share_of = [](const PlantBody* body) {
         return body && is_pushed(*body->plant) ? body->plant->step.push->share : 1;
     };
-    for (int round = 0; round < MOST; round++) {
+    for (int round = 0;; round++) {
         std::vector<uint8_t> again(island.plants.size(), 0);
         bool any = false;
         for (size_t i = 0; i < given.rows.size(); i++) {
             const auto& plants = given.rows[i].plants;
-            const double share = std::min(share_of(plants[0]), share_of(plants[1]));
+            double share = std::min(share_of(plants[0]), share_of(plants[1]));
             if (share == 1 || given.impulses[i].isZero(0)) continue;
             any = true;
+            if (round >= MOST) share = 0;
             for (const PlantBody* body : plants)
                 if (body && share_of(body) > share) again[size_t(body->place)] = 1;
             given.impulses[i] *= share;
@@ -153,6 +155,7 @@ void level_pushes(const ContactIsland& island, Given& given, Waiting& waiting) {
         for (PlantBody* body : island.plants) {
             if (again[size_t(body->place)]) {
                 take_back(waiting, waiting.of[size_t(body->number)]);
+                body->plant->step.takes = 1;
             } else if (share_of(body) < 1) {
                 body->plant->step.push->impulse *= body->plant->step.push->share;
                 body->plant->step.push->share = 1;
