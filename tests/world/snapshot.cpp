@@ -301,6 +301,26 @@ TEST(Snapshot, MakesWholeWhatBrokeSince) {
     EXPECT_EQ(garden.restore(bytes), FROND_RESULT_BAD_ARGUMENT);
 }
 
+TEST(Snapshot, JoinsOnlyWhatBrokeSince) {
+    for (int which = 0; which < FROND_MECHANICS_COUNT; which++) {
+        Garden garden(FROND_MECHANICS_COUNT);
+        frond_plant plant = garden.plants[size_t(which)];
+        const int capsules = frond_plant_get_capsule_count(plant);
+        garden.run(5);
+        ASSERT_EQ(frond_plant_break(plant, capsules - 2), FROND_OK) << frond_last_error();
+        garden.run(5);
+        const std::vector<char> bytes = garden.save();
+        const std::vector<uint64_t> first = garden.run(20);
+        ASSERT_EQ(frond_plant_break(plant, capsules - 4), FROND_OK) << frond_last_error();
+        garden.run(7);
+        ASSERT_EQ(frond_plant_break(plant, 1), FROND_OK) << frond_last_error();
+        garden.run(7);
+        ASSERT_EQ(garden.restore(bytes), FROND_OK) << which << ": " << frond_last_error();
+        EXPECT_EQ(frond_plant_get_fragment_count(plant), 1);
+        EXPECT_EQ(garden.run(20), first) << which;
+    }
+}
+
 // For every kind of wrong bytes: a code, a text, and an unchanged world.
 struct Refused : testing::Test {
     Garden garden{2};

@@ -149,19 +149,19 @@ int find_break(const Plant& plant) {
     return find_overload(mechanics(plant.which, plant.nodes->order), elements_of(plant), plant.state.motion.x);
 }
 
-static std::vector<uint8_t> gone_of(const Plant& plant) {
+static std::vector<uint8_t> gone_with(const Plant& plant, size_t count) {
     std::vector<uint8_t> gone;
-    for (int fragment : plant.state.parting->of_chain) gone.push_back(fragment >= 0);
+    for (int fragment : plant.state.parting->of_chain) gone.push_back(fragment >= 0 && fragment < int(count));
     return gone;
 }
 
-std::shared_ptr<const System> without_fragments(const Plant& plant, const System& system) {
-    return system_without(system, gone_of(plant));
+std::shared_ptr<const System> without_fragments(const Plant& plant, const System& system, size_t count) {
+    return system_without(system, gone_with(plant, count));
 }
 
 // Takes the elements of all fragments out of the plant's system.
 static void take_away(Plant& plant) {
-    const std::vector<uint8_t> gone = gone_of(plant);
+    const std::vector<uint8_t> gone = gone_with(plant, plant.state.fragments.size());
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     std::unique_ptr<Elements> own = plant.state.own_elements ? row.without(*plant.state.own_elements, gone) : nullptr;
     plant.system = system_without(*plant.system, gone);
@@ -177,6 +177,19 @@ void leave_fragments(Plant& plant) {
     if (plant.state.fragments.empty()) return;
     take_away(plant);
     let_rest(plant);
+}
+
+void rejoin(Plant& plant, size_t count) {
+    FROND_ASSERT(count < plant.state.fragments.size());
+    plant.state.fragments.erase(plant.state.fragments.begin() + std::ptrdiff_t(count), plant.state.fragments.end());
+    Parting& parting = *plant.state.parting;
+    for (int& of : parting.of_chain)
+        if (of >= int(count)) of = -1;
+    mark_cage(plant, parting);
+    mark_surface(plant, parting);
+    if (count == 0) plant.state.parting = no_parting();
+    take_mechanics(plant, plant.which);
+    leave_fragments(plant);
 }
 
 // Returns where the nodes of a part are once it has sprung back: nothing holds it strained any more. That is one long

@@ -128,7 +128,7 @@ static CageNodes make_nodes(const Cage& cage, int order) {
     return nodes;
 }
 
-static void take_mechanics(Plant& plant, frond_mechanics which) {
+void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.which = which;
     const CageNodes& nodes = *plant.nodes;
     const std::shared_ptr<const SharedSystem> shared = shared_system(plant.model, which, plant.input.mass, nodes.order);

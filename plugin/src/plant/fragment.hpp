@@ -53,10 +53,12 @@ int find_break(const Plant& plant);
 // Takes off the part beyond a capsule, given by the chain node at its end, which is not gone yet. Returns the new
 // fragment.
 const Fragment& break_off(Plant& plant, int node);
-// Returns a system of the plant's model, in whatever mechanics, without the elements of its fragments.
-std::shared_ptr<const System> without_fragments(const Plant& plant, const System& system);
+// Returns a system of the plant's model, in whatever mechanics, without the elements of its first `count` fragments.
+std::shared_ptr<const System> without_fragments(const Plant& plant, const System& system, size_t count);
 // Takes all fragments away again after the mechanics changed.
 void leave_fragments(Plant& plant);
+// Has all fragments but the first `count` be the plant's again. Its motion and what yielded are those of a new plant.
+void rejoin(Plant& plant, size_t count);
 // Moves chain nodes that are gone with the stump, so that cage nodes on both sides keep their places against it.
 void carry_stumps(Plant& plant);
 

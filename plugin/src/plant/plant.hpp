@@ -356,5 +356,7 @@ void relax(Plant& plant, const StoredEnergy& most, bool pins_moved);
 // Switches to other mechanics with the same shape and motion. `smoothly`: between cage and chain only the modal part of
 // a plant that sways on its roots is handed over, which strains neither, and the rest of shape and motion blends out.
 void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly = false);
+// Gives a plant mechanics as a new one has them: as modelled, at rest and whole.
+void take_mechanics(Plant& plant, frond_mechanics which);
 
 }  // namespace frond

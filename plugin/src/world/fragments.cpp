@@ -152,9 +152,9 @@ bool is_apart(const PlantBody& body, int capsule, const btCollisionObject& other
                        [&](const Rigid* fragment) { return fragment->body.get() == &other && !fragment->has_left; });
 }
 
-void remove_fragments(World& world, PlantBody& body) {
-    for (Rigid* fragment : body.fragment_bodies) remove_rigid(world, fragment);
-    body.fragment_bodies.clear();
+void remove_fragments(World& world, PlantBody& body, size_t first) {
+    for (size_t k = first; k < body.fragment_bodies.size(); k++) remove_rigid(world, body.fragment_bodies[k]);
+    body.fragment_bodies.resize(std::min(first, body.fragment_bodies.size()));
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -24,7 +24,7 @@ void pull_fragments(PlantBody& body, double h);
 // plant.
 bool is_apart(const PlantBody& body, int capsule, const btCollisionObject& other);
 // Removes the bodies of a plant's fragments.
-void remove_fragments(World& world, PlantBody& body);
+void remove_fragments(World& world, PlantBody& body, size_t first = 0);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -69,7 +69,7 @@ struct SavedAhead {
     btVector3 force;
 };
 struct SavedBond {
-    int vertex;
+    int vertex, body;  // -1: it holds nothing any more
     Vec3 impulse;
     double length;
     Foreseen foreseen;
@@ -89,11 +89,8 @@ struct Snapshot {
     SavedTouches touches;
 };
 
-// Returns whether a body is a fragment of a plant that was whole in the snapshot, so that it goes when that is
-// restored.
-inline bool is_to_go(const Snapshot& snapshot, const Rigid& rigid) {
-    return rigid.grown_on && snapshot.plants[size_t(rigid.grown_on->index)].fragments.empty();
-}
+// Returns whether a body is a fragment that had not come off in the snapshot, so that it goes when that is restored.
+bool is_to_go(const Snapshot& snapshot, const Rigid& rigid);
 
 // Describes the world as it is now. Sleeping plants are decompressed meanwhile.
 Snapshot take_snapshot(World& world);

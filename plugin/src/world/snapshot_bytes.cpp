@@ -128,7 +128,7 @@ static void visit(Archive& a, SavedAhead& ahead) {
 }
 
 static void visit(Archive& a, SavedBond& bond) {
-    a(bond.vertex), a(bond.impulse), a(bond.length);
+    a(bond.vertex), a(bond.body), a(bond.impulse), a(bond.length);
     visit_foreseen(a, bond.foreseen);
 }
 

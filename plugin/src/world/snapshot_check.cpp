@@ -67,11 +67,23 @@ struct Becomes {
     Eigen::Index numbers;  // number of coordinates
 };
 Becomes becomes(const Plant& plant, const SavedPlant& saved) {
-    const bool stays = saved.which == plant.which && saved.fragments.empty() == plant.state.fragments.empty();
+    const size_t fragments = saved.fragments.size();
+    const bool stays = saved.which == plant.which && fragments == plant.state.fragments.size();
     auto system = stays ? plant.system : make_system(plant.model, saved.which, plant.input.mass, plant.nodes->order);
-    if (!stays && !saved.fragments.empty()) system = without_fragments(plant, *system);
+    if (!stays && fragments > 0) system = without_fragments(plant, *system, fragments);
     return {system, &mechanics(saved.which, plant.nodes->order), 3 * Eigen::Index(elements_of(*system).node_count)};
 }
+
+}  // namespace
+
+bool is_to_go(const Snapshot& snapshot, const Rigid& rigid) {
+    if (!rigid.grown_on) return false;
+    const std::vector<Rigid*>& all = rigid.grown_on->fragment_bodies;
+    const auto place = std::find(all.begin(), all.end(), &rigid) - all.begin();
+    return size_t(place) >= snapshot.plants[size_t(rigid.grown_on->index)].fragments.size();
+}
+
+namespace {
 
 // Returns the number of Bullet's objects that stay; those that go have to be the last ones, or the others would change
 // places.
@@ -161,8 +173,7 @@ void check_blend_out(const BlendOut& blend_out, Eigen::Index numbers) {
 
 void check_fragments(const SavedPlant& saved, const PlantBody& body) {
     const Plant& plant = *body.plant;
-    if (saved.fragments.empty()) return;  // a plant that broke since is whole again
-    bool alike = saved.fragments.size() == plant.state.fragments.size();
+    bool alike = saved.fragments.size() <= plant.state.fragments.size();  // what broke since joins the plant again
     for (size_t i = 0; alike && i < saved.fragments.size(); i++)
         alike = saved.fragments[i].node == plant.state.fragments[i].node;
     if (!alike)
@@ -283,6 +294,7 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
         if (saved.vertex != bond.vertex)
             fail(FROND_RESULT_BAD_ARGUMENT,
                  "a bond holds a different point from that in the snapshot; make the same bonds in the same order");
+        if (saved.body >= 0) check_index(saved.body, object_count, "bonds");
         check_numbers(saved.impulse, "bonds");
         check_foreseen(saved.foreseen, "bonds");
         if (!(saved.length > 0 && saved.length <= MOST)) damaged("bonds");

@@ -112,12 +112,14 @@ void put_rigid(const SavedRigid& saved, Rigid& rigid) {
 
 void put_snapshot(World& world, Snapshot snapshot) {
     world.gravity_ahead = {};  // no gravity is left to be cancelled
-    for (size_t i = 0; i < snapshot.plants.size(); i++)
-        if (snapshot.plants[i].fragments.empty() && !world.bodies[i]->plant->state.fragments.empty())
-            reset_plant(*world.bodies[i]);
     for (const auto& body : world.bodies) {
         wake(*body);
         body->troubled_in = UINT32_MAX;
+        const size_t fragments = snapshot.plants[size_t(body->index)].fragments.size();
+        if (fragments >= body->plant->state.fragments.size()) continue;
+        remove_fragments(world, *body, fragments);
+        end_modal(*body->plant);
+        rejoin(*body->plant, fragments);
     }
     world.time = snapshot.time;
     if (world.wind) world.wind->travelled = snapshot.travelled;
@@ -132,9 +134,11 @@ void put_snapshot(World& world, Snapshot snapshot) {
     remove_where(world.awake, sleeps);
     size_t i = 0;
     for (Bond& bond : world.bonds) {
-        bond.impulse = snapshot.bonds[i].impulse;
-        bond.foreseen = snapshot.bonds[i].foreseen;
-        bond.length = snapshot.bonds[i++].length;
+        const SavedBond& saved = snapshot.bonds[i++];
+        bond.body = saved.body >= 0 ? object_at(world, saved.body) : nullptr;  // it may have let go since
+        bond.impulse = saved.impulse;
+        bond.foreseen = saved.foreseen;
+        bond.length = saved.length;
     }
     for (const SavedAhead& ahead : snapshot.ahead)
         world.gravity_ahead.bodies.push_back({btRigidBody::upcast(object_at(world, ahead.body)), ahead.force});

@@ -129,7 +129,7 @@ Snapshot take_snapshot(World& world) {
     compress_looked_at(world);
     for (const auto& rigid : world.rigids) snapshot.rigids.push_back(take_rigid(*rigid));
     for (const Bond& bond : world.bonds)
-        snapshot.bonds.push_back({bond.vertex, bond.impulse, bond.length, bond.foreseen});
+        snapshot.bonds.push_back({bond.vertex, place_of(world, bond.body), bond.impulse, bond.length, bond.foreseen});
     for (const GravityAhead::Held& held : world.gravity_ahead.bodies) {
         const int body = place_of(world, held.body);
         if (body >= 0) snapshot.ahead.push_back({body, held.force});
