@@ -113,8 +113,9 @@ void Laws::check_finite(const Standing& plant) {
         throw Breach(Law::FINITE, "a plant is not finite");
 }
 
-// A rooted plant is where its foot is, and hangs from it if need be, drawn out as a chain may be. Another one may have gone as fast as anything could make it go. The linear law
-// knows no end of bending: a force carries a leaf any number of its lengths away.
+// A rooted plant is where its foot is, and hangs from it if need be, drawn out as a chain may be. Another one may have
+// gone as fast as anything could make it go. The linear law knows no end of bending: a force carries a leaf any number
+// of its lengths away.
 void Laws::check_places(const Standing& plant, const Loads& loads) {
     constexpr double REACH = 1 + LOADED, FAST = 30;  // [sizes], [m/s]
     if (plant.def.mechanics == FROND_MECHANICS_TET_LINEAR && loads.force > 0) return;

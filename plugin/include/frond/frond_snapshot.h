@@ -23,8 +23,8 @@ FROND_API size_t frond_world_get_snapshot_size(frond_world world);
 /* Saves the world into `snapshot`. size must be what frond_world_get_snapshot_size returns. */
 FROND_API frond_result frond_world_save(frond_world world, void* snapshot, size_t size);
 /* Restores a snapshot into a world with the same plants, grabs, bonds and rigid bodies in the order in which they were
- * made; plants of the same models and settings. What broke off since is a plant's own again, if nothing was made after it
- * broke; what had broken off has to have done so in the same order. Handles stay valid. Else BAD_ARGUMENT, and
+ * made; plants of the same models and settings. What broke off since is its plant's own again, if nothing was made
+ * after that; what had come off then has to have come off in the same order. Handles stay valid. Else BAD_ARGUMENT, and
  * FILE_FORMAT for bytes that are cut off, changed, or of another version or precision of Frond; nothing is changed. */
 FROND_API frond_result frond_world_restore(frond_world world, const void* snapshot, size_t size);
 

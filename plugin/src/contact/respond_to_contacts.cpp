@@ -13,6 +13,7 @@
 #include "contact/foresee.hpp"
 #include "contact/keep_apart.hpp"
 #include "contact/part_plants.hpp"
+#include "contact/push_plants.hpp"
 #include "contact/stop_asking.hpp"
 #include "contact/strip_search.hpp"
 #include "core/elementary.hpp"
@@ -44,19 +45,6 @@ struct Given {
 
 size_t contacts_of(const ContactIsland& island) {
     return island.with_bodies.size() + island.with_plants.size() + island.bonds.size();
-}
-
-// Gathers the rows' impulses on the plants that `on` names by their places in the island.
-void gather_pushes(const Given& given, const std::vector<uint8_t>& on) {
-    for (size_t i = 0; i < given.rows.size(); i++) {
-        const ContactRow& row = given.rows[i];
-        const Vec3& impulse = given.impulses[i];
-        for (size_t k = 0; k < 2; k++) {
-            if (impulse.isZero(0) || !row.plants[k] || !on[size_t(row.plants[k]->place)]) continue;
-            Plant& plant = *row.plants[k]->plant;
-            add_impulse(plant, row.touches[k], k == 0 ? impulse : Vec3(-impulse), push_of(plant).impulse);
-        }
-    }
 }
 
 // Applies the rows' impulses to the bodies. Returns the rigid ones among them.
@@ -101,72 +89,6 @@ void take_inertias(const ContactIsland& island) {
     for (btMultiBody* body : bodies) take_present_inertia(*body);
 }
 
-// Plants whose step may still change, and their steps without contacts.
-struct Waiting {
-    std::vector<PlantBody*> bodies;
-    std::vector<FreeStep> steps;
-    std::vector<size_t> of;             // which of these a plant is, by the plants' numbers
-    std::vector<TouchedPlant> touched;  // likewise
-};
-
-Waiting find_waiting(const World& world) {
-    Waiting waiting;
-    waiting.touched.resize(world.taking_part.size());
-    waiting.of.resize(world.taking_part.size());
-    for (PlantBody* body : world.awake)
-        if (waits(*body->plant) && body->level.is_due && !body->plant->state.modal) {
-            waiting.of[size_t(body->number)] = waiting.bodies.size();
-            waiting.bodies.push_back(body);
-            waiting.steps.push_back(free_step(*body->plant));
-        }
-    return waiting;
-}
-
-// Takes the response of a plant back. Where it was solved again, its matrix was factored at another place, and the
-// compliances found with the one before are dropped.
-void take_back(Waiting& waiting, size_t i) {
-    const PlantBody& body = *waiting.bodies[i];
-    if (!body.plant->follow && body.plant->trouble & FROND_TROUBLE_RETRIED) waiting.touched[size_t(body.number)] = {};
-    take_back(*body.plant, waiting.steps[i]);
-}
-
-// Shortens impulses to what both of their sides take, as a plant that turns away from what pushes it takes a share of
-// its push alone: no energy comes from between two plants. Plants that are pushed less may turn away in their turn; in
-// the end nothing pushes them.
-void level_pushes(const ContactIsland& island, Given& given, Waiting& waiting) {
-    constexpr int MOST = 4;  // rounds of shares
-    const auto share_of = [](const PlantBody* body) {
-        return body && is_pushed(*body->plant) ? body->plant->step.push->share : 1;
-    };
-    for (int round = 0;; round++) {
-        std::vector<uint8_t> again(island.plants.size(), 0);
-        bool any = false;
-        for (size_t i = 0; i < given.rows.size(); i++) {
-            const auto& plants = given.rows[i].plants;
-            double share = std::min(share_of(plants[0]), share_of(plants[1]));
-            if (share == 1 || given.impulses[i].isZero(0)) continue;
-            any = true;
-            if (round >= MOST) share = 0;
-            for (const PlantBody* body : plants)
-                if (body && share_of(body) > share) again[size_t(body->place)] = 1;
-            given.impulses[i] *= share;
-        }
-        if (!any) return;
-        for (PlantBody* body : island.plants) {
-            if (again[size_t(body->place)]) {
-                take_back(waiting, waiting.of[size_t(body->number)]);
-                body->plant->step.takes = 1;
-            } else if (share_of(body) < 1) {
-                body->plant->step.push->impulse *= body->plant->step.push->share;
-                body->plant->step.push->share = 1;
-            }
-        }
-        gather_pushes(given, again);
-        for (PlantBody* body : island.plants)
-            if (again[size_t(body->place)]) add_contacts(*body->plant, body->level.pending);
-    }
-}
-
 // Finds the impulses of an island and applies them to its plants.
 Given respond_in(const World& world, const ResponseRow& response, const ContactIsland& island, double h,
                  Waiting& waiting) {
@@ -189,13 +111,12 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
         for (const ContactRow& row : rows) impulses.push_back(*row.impulse);
         response.find(coupled.touches(), coupled.table(), settings, impulses);
         again = stop_asking(island, coupled, impulses, h);
-        for (size_t i = 0; !again && i < rows.size(); i++)
+        if (again) continue;
+        push_plants(island, rows, impulses, waiting);
+        for (size_t i = 0; i < rows.size(); i++)
             if (rows[i].contact_body.link && !impulses[i].isZero(0))
                 rows[i].parts = coupled.parts_with_gives(i, impulses);
     }
-    gather_pushes(given, std::vector<uint8_t>(island.plants.size(), 1));
-    end_steps(island);
-    level_pushes(island, given, waiting);
     go_on(rows, impulses);
     for (size_t i = 0; i < rows.size(); i++) *rows[i].impulse = impulses[i];
     return given;
