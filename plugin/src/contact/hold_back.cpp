@@ -95,24 +95,27 @@ void group_plants(World& world, Groups& groups) {
     }
 }
 
-// Joins bodies with the plants that they push or go through, if these push them.
+// Joins bodies with the plants that they push or go through, if these push them. What stands still holds plants back.
 void group_bodies(World& world, double h, Groups& groups) {
     for (size_t i = 0; i < world.swept.size(); i++) {
         const SweptBody& swept = world.swept[i];
         const int member = int(world.taking_part.size() + i);
         const bool is_pushed = is_free(*swept.object);
+        const bool stands_still = !is_pushed && swept.motion.way.isZero(0) && swept.motion.turn.isZero(0);
         for (const Contact& contact : world.contacts)
             if (is_pushed && contact.other == swept.object && pushes_back(world, *contact.plant))
                 groups.sets.join(contact.plant->number, member);
         find_hits_in_step(world, swept, h, any_plant, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), most = most_depth(body, hit), before = depth_before(hit);
-            if (!is_pushed || !pushes_back(world, body)) {
+            const bool goes_along = is_pushed && pushes_back(world, body);
+            if (!goes_along && !stands_still) {
                 if (after > radius_of(body, hit.capsule)) note_trouble(world, body, FROND_TROUBLE_PASSED);
                 return;
             }
             if (after <= most) return;
-            groups.sets.join(body.number, member);
-            groups.hold(member, hit.impact.time + (1 - hit.impact.time) * (most - before) / (after - before));
+            if (goes_along) groups.sets.join(body.number, member);
+            const double share = hit.impact.time + (1 - hit.impact.time) * (most - before) / (after - before);
+            groups.hold(goes_along ? member : body.number, share);
         });
     }
 }
