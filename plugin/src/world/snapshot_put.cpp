@@ -2,7 +2,9 @@
 #include <algorithm>
 
 #include "core/lists.hpp"
+#include "plant/fragment.hpp"
 #include "plant/pins.hpp"
+#include "world/fragments.hpp"
 #include "world/link_loads.hpp"
 #include "world/snapshot.hpp"
 
