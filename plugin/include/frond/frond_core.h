@@ -53,9 +53,9 @@ enum {
      * more than the plant's size. Effect: the body may pass through the stem; the plant goes along with its pins as a
      * whole. Remedy: shorter steps. */
     FROND_TROUBLE_PASSED = 1 << 4,
-    /* Cause: parts of plants, or free bodies, moved against each other so fast, or were pressed so hard, that no
-     * response kept them apart. Effect: they went only a part of the step's way, pins as well, so that nothing passed.
-     * Remedy: shorter steps. */
+    /* Cause: parts of plants, or free bodies, moved against each other or what stands still so fast, or were pressed so
+     * hard, that no response kept them apart. Effect: they went only a part of the step's way, pins as well, so that
+     * nothing passed. Remedy: shorter steps. */
     FROND_TROUBLE_HELD_BACK = 1 << 5,
     /* Cause: a plant had more than 100 contacts with plants, as where cages were made in each other, or so much crossed
      * within a step that no response could account for all of it. Effect: the deepest 100 contacts push, or those that
