@@ -86,9 +86,6 @@ Law law_called(const std::string& name) {
     throw tools::SceneError("there is no law \"" + name + "\"; there are " + names);
 }
 
-// How far a chain may be drawn out by what presses or pulls it, over its length [-].
-constexpr double LOADED = 1.5;
-
 Laws::Laws(frond_world world, LawSet checked) : world(world), checked(checked) {
     must(frond_world_get_energy_ledger(world, &last));
 }
@@ -113,11 +110,10 @@ void Laws::check_finite(const Standing& plant) {
         throw Breach(Law::FINITE, "a plant is not finite");
 }
 
-// A rooted plant is where its foot is, and hangs from it if need be, drawn out as a chain may be. Another one may have
-// gone as fast as anything could make it go. The linear law knows no end of bending: a force carries a leaf any number
-// of its lengths away.
+// A rooted plant is where its foot is. Another one may have gone as fast as anything could make it go. The linear law
+// knows no end of bending: a force carries a leaf any number of its lengths away.
 void Laws::check_places(const Standing& plant, const Loads& loads) {
-    constexpr double REACH = 1 + LOADED, FAST = 30;  // [sizes], [m/s]
+    constexpr double REACH = 2, FAST = 30;  // [sizes], [m/s]
     if (plant.def.mechanics == FROND_MECHANICS_TET_LINEAR && loads.force > 0) return;
     const Places now = places_of(plant.handle);
     const bool is_rooted =
@@ -133,7 +129,7 @@ void Laws::check_places(const Standing& plant, const Loads& loads) {
 // A chain that nothing but air, weight and light forces act on keeps its lengths; what presses or pulls it may draw it
 // out a little.
 void Laws::check_lengths(const Standing& plant, const Loads& loads, bool is_touched) {
-    constexpr double FREE = 1.05;
+    constexpr double FREE = 1.05, LOADED = 1.5;
     if (plant.is_strained || frond_plant_get_fragment_count(plant.handle) > 0) return;
     std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant.handle)));
     must(frond_plant_get_capsules(plant.handle, capsules.data(), int(capsules.size())));
