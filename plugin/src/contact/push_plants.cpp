@@ -21,10 +21,9 @@ Waiting find_waiting(const World& world) {
     return waiting;
 }
 
-void take_back(Waiting& waiting, size_t i) {
-    const PlantBody& body = *waiting.bodies[i];
+void take_back(Waiting& waiting, PlantBody& body) {
     if (!body.plant->follow && body.plant->trouble & FROND_TROUBLE_RETRIED) waiting.touched[size_t(body.number)] = {};
-    take_back(*body.plant, waiting.steps[i]);
+    take_back(*body.plant, waiting.steps[waiting.of[size_t(body.number)]]);
 }
 
 namespace {
@@ -68,7 +67,7 @@ void level_pushes(const ContactIsland& island, const std::vector<ContactRow>& ro
         if (!any) return;
         for (PlantBody* body : island.plants) {
             if (again[size_t(body->place)]) {
-                take_back(waiting, waiting.of[size_t(body->number)]);
+                take_back(waiting, *body);
                 body->plant->step.takes = 1;
             } else if (share_of(body) < 1) {
                 body->plant->step.push->impulse *= body->plant->step.push->share;
@@ -88,6 +87,12 @@ void push_plants(const ContactIsland& island, const std::vector<ContactRow>& row
     gather_pushes(rows, impulses, std::vector<uint8_t>(island.plants.size(), 1));
     for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending);
     level_pushes(island, rows, impulses, waiting);
+    if (!rows.empty()) return;
+    // A step that was not looked at before may have been solved again.
+    for (const PlantBody* body : island.plants) {
+        FreeStep& free = waiting.steps[waiting.of[size_t(body->number)]];
+        if (body->plant->trouble & ~free.trouble & FROND_TROUBLE_RETRIED) free = free_step(*body->plant);
+    }
 }
 
 }  // namespace FROND_BULLET_PRECISION

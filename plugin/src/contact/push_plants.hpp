@@ -17,9 +17,10 @@ struct Waiting {
 Waiting find_waiting(const World& world);
 // Takes the response of a plant back. Where it was solved again, its matrix was factored at another place, and the
 // compliances found with the one before are dropped.
-void take_back(Waiting& waiting, size_t i);
+void take_back(Waiting& waiting, PlantBody& body);
 
-// Adds the rows' impulses to the steps of an island's plants, and shortens them to what both of their sides take.
+// Adds the rows' impulses to the steps of an island's plants, also of those that nothing pushes, and shortens them to
+// what both of their sides take. Without rows, the steps without contacts are from then on those that come out.
 void push_plants(const ContactIsland& island, const std::vector<ContactRow>& rows, std::vector<Vec3>& impulses,
                  Waiting& waiting);
 

@@ -28,12 +28,6 @@ bool pushes_back(const World& world, const PlantBody& body) {
 
 namespace {
 
-// Adds contacts to the steps of all plants, also of those that nothing pushes: their solution without contacts then
-// stands.
-void end_steps(const ContactIsland& island) {
-    for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending);
-}
-
 // How an island was answered: its rows and their impulses.
 struct Given {
     std::vector<ContactRow> rows;
@@ -99,8 +93,9 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
     for (bool again = true; again;) {
         rows = make_rows(world, island, h);
         if (all_wait(rows, h)) {
-            end_steps(island);
             rows.clear();
+            impulses.clear();
+            push_plants(island, rows, impulses, waiting);
             return given;
         }
         const CoupledRows coupled(std::move(rows), island.plants.size(), waiting.touched);
@@ -155,22 +150,6 @@ Given* standing_answer(Responses& all, const std::vector<int>& given_of, const C
     return given.plants.size() == island.plants.size() && given.contacts == contacts_of(island) ? &given : nullptr;
 }
 
-// Responses of plants that nothing pushed yet go on from their step as it was solved again, for it had not been looked
-// at before.
-void find_free_again(Waiting& waiting, const std::vector<ContactIsland>& islands, const std::vector<size_t>& open,
-                     const std::vector<Given>& given) {
-    std::vector<const PlantBody*> unpushed;
-    for (const size_t i : open)
-        if (given[i].rows.empty()) unpushed.insert(unpushed.end(), islands[i].plants.begin(), islands[i].plants.end());
-    std::sort(unpushed.begin(), unpushed.end());
-    for (size_t i = 0; i < waiting.bodies.size(); i++) {
-        const PlantBody* body = waiting.bodies[i];
-        if (body->plant->trouble & FROND_TROUBLE_RETRIED && !(waiting.steps[i].trouble & FROND_TROUBLE_RETRIED) &&
-            std::binary_search(unpushed.begin(), unpushed.end(), body))
-            waiting.steps[i] = free_step(*body->plant);
-    }
-}
-
 // Answers the islands that have no standing answer.
 void respond_again(World& world, const ResponseRow& response, double h, Waiting& waiting, Responses& all) {
     const std::vector<ContactIsland> islands = find_contact_islands(world);
@@ -190,9 +169,9 @@ void respond_again(World& world, const ResponseRow& response, double h, Waiting&
             if (const int of = given_of[size_t(body->number)]; of >= 0)
                 given[i].couplings = std::max(given[i].couplings, all.given[size_t(of)].couplings);
     }
-    for (size_t i = 0; i < waiting.bodies.size(); i++) {
-        const size_t number = size_t(waiting.bodies[i]->number);
-        if (given_of[number] >= 0 && !stands[number]) take_back(waiting, i);
+    for (PlantBody* body : waiting.bodies) {
+        const size_t number = size_t(body->number);
+        if (given_of[number] >= 0 && !stands[number]) take_back(waiting, *body);
     }
     run_jobs(world, open.size(), [&](size_t k) {
         const ContactIsland& island = islands[open[k]];
@@ -203,7 +182,6 @@ void respond_again(World& world, const ResponseRow& response, double h, Waiting&
         to.contacts = contacts_of(island);
         to.couplings = couplings + squared(double(to.rows.size()));
     });
-    find_free_again(waiting, islands, open, given);
     for (const size_t i : open) {
         const std::vector<Contact*>& contacts = islands[i].with_bodies;
         const bool is_led = std::any_of(contacts.begin(), contacts.end(), [](Contact* c) { return is_carried_on(*c); });

@@ -23,7 +23,7 @@ void pull_fragments(PlantBody& body, double h);
 // Returns whether a capsule and a body do not collide: the capsule came off, or the body did and has not yet left the
 // plant.
 bool is_apart(const PlantBody& body, int capsule, const btCollisionObject& other);
-// Removes the bodies of a plant's fragments.
+// Removes the bodies of a plant's fragments, from `first` on.
 void remove_fragments(World& world, PlantBody& body, size_t first = 0);
 
 }  // namespace FROND_BULLET_PRECISION

@@ -89,9 +89,6 @@ struct Snapshot {
     SavedTouches touches;
 };
 
-// Returns whether a body is a fragment that had not come off in the snapshot, so that it goes when that is restored.
-bool is_to_go(const Snapshot& snapshot, const Rigid& rigid);
-
 // Describes the world as it is now. Sleeping plants are decompressed meanwhile.
 Snapshot take_snapshot(World& world);
 // Throws BAD_ARGUMENT or FILE_FORMAT, with nothing changed, if the snapshot does not fit the world.

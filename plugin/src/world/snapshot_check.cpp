@@ -74,16 +74,13 @@ Becomes becomes(const Plant& plant, const SavedPlant& saved) {
     return {system, &mechanics(saved.which, plant.nodes->order), 3 * Eigen::Index(elements_of(*system).node_count)};
 }
 
-}  // namespace
-
+// Returns whether a body is a fragment that had not come off in the snapshot, so that it goes when that is restored.
 bool is_to_go(const Snapshot& snapshot, const Rigid& rigid) {
     if (!rigid.grown_on) return false;
     const std::vector<Rigid*>& all = rigid.grown_on->fragment_bodies;
     const auto place = std::find(all.begin(), all.end(), &rigid) - all.begin();
     return size_t(place) >= snapshot.plants[size_t(rigid.grown_on->index)].fragments.size();
 }
-
-namespace {
 
 // Returns the number of Bullet's objects that stay; those that go have to be the last ones, or the others would change
 // places.

@@ -120,7 +120,6 @@ void put_snapshot(World& world, Snapshot snapshot) {
         const size_t fragments = snapshot.plants[size_t(body->index)].fragments.size();
         if (fragments >= body->plant->state.fragments.size()) continue;
         remove_fragments(world, *body, fragments);
-        end_modal(*body->plant);
         rejoin(*body->plant, fragments);
     }
     world.time = snapshot.time;
