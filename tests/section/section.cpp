@@ -23,11 +23,11 @@ struct Sample {
     Chain chain;
     std::vector<Section> sections;
 
-    Sample(Surface given, const char* kind, const Material& material) : surface(std::move(given)) {
+    Sample(Surface given, const char* kind, const Material& material, double height = 0.1) : surface(std::move(given)) {
         for (Part& part : surface.parts) part.organ = 0;
         topology = make_topology(surface);
         organs = {{"it", kind, material}};
-        chain = make_chain(surface, topology, organs, {0.1, 0});
+        chain = make_chain(surface, topology, organs, {height, 0});
         sections = measure_sections(surface, topology, organs, chain);
     }
     // Returns the sections away from the ends, whose capsules extend into the caps.
@@ -161,6 +161,83 @@ TEST(Section, OfAPrismIsItsRectangle) {
             EXPECT_NEAR(section.rotary_inertia().y() / (800 * wide), 1, 1e-4);
         }
     }
+}
+
+// Returns the corners of a polygon like a circle, about a place in the xz-plane.
+std::vector<Vec3> circle(double radius, double x, double z) {
+    constexpr int SIDES = 12;
+    std::vector<Vec3> corners;
+    for (int k = 0; k < SIDES; k++) {
+        const double angle = 2 * M_PI * k / SIDES;
+        corners.push_back({x + radius * std::sin(angle), 0, z + radius * std::cos(angle)});
+    }
+    return corners;
+}
+
+// Appends a surface, pressed to a length along y from a height on, to the same part.
+void append(const Surface& other, double from, double length, Surface& surface) {
+    const int first = int(surface.positions.size());
+    for (const Vec3& place : other.positions)
+        surface.positions.push_back({place.x(), from + length * place.y() / LENGTH, place.z()});
+    for (const Triangle& triangle : other.triangles)
+        surface.triangles.push_back({triangle[0] + first, triangle[1] + first, triangle[2] + first});
+    surface.parts[0].triangle_count = int(surface.triangles.size());
+}
+
+// Twigs too short for capsules of their own are beams beside the trunk: no ring goes around all of them, and what lies
+// within the trunk or is drawn twice is there once.
+TEST(Section, OfATrunkWithTwigsBesideItIsTheSum) {
+    constexpr int TWIGS = 60;
+    constexpr double R = 0.01, TWIG = 0.003, LONG = 0.03;
+    const double area = 12 * std::sin(M_PI / 12) * std::cos(M_PI / 12), inertia = area * (2 + std::cos(M_PI / 6)) / 12;
+    for (const double away : {0.03, 0.002}) {
+        Surface surface = prism(circle(R, 0, 0), true);
+        for (int k = 0; k < TWIGS; k++) {
+            const double angle = 2.4 * k, from = LENGTH * (0.2 + 0.5 * k / TWIGS);
+            const Surface twig = prism(circle(TWIG, away * std::cos(angle), away * std::sin(angle)), true);
+            for (int times = 0; times < 2; times++) append(twig, from, LONG, surface);
+        }
+        const double beside = away > R ? area * TWIG * TWIG * TWIGS * LONG : 0, trunk = area * R * R;
+        const Sample sample(std::move(surface), "stem", wood());
+        SCOPED_TRACE(testing::Message() << "away " << away);
+        double volume = 0, length = 0;
+        for (const Section& section : sample.inner()) {
+            volume += section.area * section.length;
+            length += section.length;
+            const double bending = section.inertia_thin / (inertia * std::pow(R, 4));
+            EXPECT_GT(bending, 0.999);
+            EXPECT_LT(bending, away > R ? 1.06 : 1.001);
+            EXPECT_NEAR(section.torsion / (2 * inertia * std::pow(R, 4)), bending, 0.02);
+        }
+        EXPECT_NEAR(length, LENGTH - 0.25, 0.06);
+        EXPECT_NEAR(volume / (trunk * length + beside), 1, away > R ? 0.07 : 1e-3);
+    }
+}
+
+// The other face of a tube is a hole, where one capsule holds both.
+TEST(Section, OfADrawnTubeIsItsWall) {
+    constexpr double R = 0.02, HOLE = 0.012;
+    Surface surface = prism(circle(R, 0, 0), true);
+    Surface inner = prism(circle(HOLE, 0, 0), true);
+    for (Triangle& triangle : inner.triangles) std::swap(triangle[0], triangle[1]);
+    append(inner, 0, LENGTH, surface);
+    // The rims join both faces instead of closing each.
+    constexpr int SIDES = 12, ENDS = 2 * (SIDES - 2), RINGS = 20;
+    const int half = int(surface.triangles.size()) / 2, first = int(surface.positions.size()) / 2;
+    surface.triangles.erase(surface.triangles.end() - ENDS, surface.triangles.end());
+    surface.triangles.erase(surface.triangles.begin() + half - ENDS, surface.triangles.begin() + half);
+    for (int ring : {0, RINGS})
+        for (int k = 0; k < SIDES; k++) {
+            const int a = ring * SIDES + k, b = ring * SIDES + (k + 1) % SIDES;
+            surface.triangles.push_back({a, b, b + first});
+            surface.triangles.push_back({a, b + first, a + first});
+        }
+    surface.parts[0].triangle_count = int(surface.triangles.size());
+    const double area = 12 * std::sin(M_PI / 12) * std::cos(M_PI / 12), inertia = area * (2 + std::cos(M_PI / 6)) / 12;
+    const Sample sample(std::move(surface), "stem", wood(), 2 * LENGTH);
+    ASSERT_EQ(sample.sections.size(), 2u);
+    EXPECT_NEAR(sample.sections[1].area / (area * (R * R - HOLE * HOLE)), 1, 1e-3);
+    EXPECT_NEAR(sample.sections[1].inertia_thin / (inertia * (std::pow(R, 4) - std::pow(HOLE, 4))), 1, 1e-3);
 }
 
 TEST(Section, DoesNotCareWhichWayTheTrianglesRun) {

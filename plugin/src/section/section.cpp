@@ -104,11 +104,9 @@ void take_section(const Section& from, Section& section) {
     section.inertia_wide = from.inertia_wide;
 }
 
-// Fills area and second moments of a capsule's outline, without its hole. Returns whether they are exact. An outline
-// that is much smaller than the surface around the capsule belongs to a corner that happens to be cut, and is not used.
+// Fills area and second moments of a capsule's outline, without its hole. Returns whether they are exact.
 bool fill_outline(const ChainNode& node, const Organ& organ, double gap, const Spread& spread, const Outline& outline,
                   const std::vector<Section>& before, Section& section) {
-    constexpr double TOO_SMALL = 0.4;  // area over that of the ring around [-]
     const double drawn = spread.area / section.length;
     section.thickness = organ.material.thickness;
     if (is_sheet(organ) && spread.area > 0) {
@@ -129,8 +127,7 @@ bool fill_outline(const ChainNode& node, const Organ& organ, double gap, const S
         }
         return bounded;
     }
-    const double ring = 2 * PI * std::sqrt(spread.small * spread.large);
-    if (!is_sheet(organ) && outline.found && outline.area > TOO_SMALL * ring) {
+    if (!is_sheet(organ) && outline.found) {
         take_outline(outline, section);
         return true;
     }

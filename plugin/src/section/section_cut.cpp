@@ -1,7 +1,7 @@
 // Surface and chain -> outlines. Planes across a capsule cut its triangles in line segments, directed so that they run
-// around what they enclose; Green's theorem then gives area and second moments of the outline, exactly for a mesh that
-// is closed there. Where segments do not form a closed loop (open sheets, forks, soups) there is no
-// outline.
+// around what they enclose; Green's theorem then gives area and second moments of each outline, exactly for a mesh that
+// is closed there. Several outlines, a trunk and twigs beside it, are beams side by side: nothing joins them in shear.
+// Where most of what is cut does not close (open sheets, forks, soups) there is no outline.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 #include <map>
 
 #include "core/decompose.hpp"
+#include "core/union_find.hpp"
 #include "section/section_parts.hpp"
 
 namespace frond {
@@ -18,8 +19,6 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 constexpr double CLOSED = 1e-6;  // largest gap of a closed outline, as a share of its perimeter
-constexpr double MAIN = 0.8;     // least share of the whole perimeter that the main component must have
-constexpr double COMPACT = 9;    // least A^2 / sqrt(I_thin I_wide) of one outline; two apart have less
 // Gauss points and weights along the capsule: exact for a taper.
 constexpr std::array<double, 3> PLANES = {0.1127016653792583, 0.5, 0.8872983346207417};
 constexpr std::array<double, 3> WEIGHTS = {5.0 / 18, 8.0 / 18, 5.0 / 18};
@@ -50,26 +49,41 @@ struct Sums {
     bool closed() const { return is_loop() && area != 0; }
 };
 
+// Where a plane cuts a triangle, from p to q, and which edges it cuts there.
+struct Segment {
+    int triangle;
+    std::array<std::pair<int, int>, 2> edges;  // points of the topology, the smaller first
+    Vector2d p, q;
+};
+
 // Finds the segment in which a plane across the axis cuts a triangle, directed by the triangle's normal.
-bool cut_triangle(const std::array<Vec3, 3>& corners, bool turned, const CapsuleFrame& frame, double along, Vector2d& p,
-                  Vector2d& q) {
+bool cut_triangle(const Topology& topology, int triangle, const CapsuleFrame& frame, double along, Segment& segment) {
+    // Welded, so that outlines close where a soup's triangles only nearly meet.
+    const Triangle& points = topology.triangles[size_t(triangle)];
+    std::array<Vec3, 3> corners;
     std::array<double, 3> side;
-    for (size_t k = 0; k < 3; k++) side[k] = (corners[k] - frame.begin).dot(frame.axis) - along;
+    for (size_t k = 0; k < 3; k++) {
+        corners[k] = topology.points[size_t(points[k])];
+        side[k] = (corners[k] - frame.begin).dot(frame.axis) - along;
+    }
     std::array<Vec3, 2> ends;
     size_t count = 0;
     for (size_t k = 0; k < 3; k++) {
         const size_t next = (k + 1) % 3;
         if ((side[k] < 0) == (side[next] < 0)) continue;
+        segment.edges[count] = std::minmax(points[k], points[next]);
         ends[count++] = corners[k] + side[k] / (side[k] - side[next]) * (corners[next] - corners[k]);
     }
     if (count < 2) return false;
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    const bool turned = topology.turned[size_t(triangle)] != 0;
     if (((ends[1] - ends[0]).dot(frame.axis.cross(normal)) < 0) != turned) std::swap(ends[0], ends[1]);
     const auto flatten = [&](const Vec3& x) {
         return Vector2d((x - frame.begin).dot(frame.across), (x - frame.begin).dot(frame.other));
     };
-    p = flatten(ends[0]);
-    q = flatten(ends[1]);
+    segment.triangle = triangle;
+    segment.p = flatten(ends[0]);
+    segment.q = flatten(ends[1]);
     return true;
 }
 
@@ -122,21 +136,54 @@ Matrix2d central_moments(const Sums& sums) {
     return moments.determinant() > 0 && moments.trace() > 0 ? moments : Matrix2d(Matrix2d::Zero());
 }
 
-// What a plane cuts: the one compact outline of a solid, or all of a sheet; none if its area is zero.
+// Segments that meet at the edges that the plane cuts, as one outline.
+struct Loop {
+    Sums sums;
+    std::vector<Segment> segments;
+
+    // Whether a place is enclosed, by how often a ray from it crosses the outline.
+    bool encloses(const Vector2d& place) const {
+        bool inside = false;
+        for (const Segment& s : segments) {
+            if ((s.p.y() > place.y()) == (s.q.y() > place.y())) continue;
+            const double x = s.p.x() + (place.y() - s.p.y()) / (s.q.y() - s.p.y()) * (s.q.x() - s.p.x());
+            if (x > place.x()) inside = !inside;
+        }
+        return inside;
+    }
+};
+
+// Collects segments into loops. What is drawn twice counts once.
+std::vector<Loop> collect_loops(std::vector<Segment> segments) {
+    const auto ends_of = [](const Segment& s) { return std::minmax(s.edges[0], s.edges[1]); };
+    std::stable_sort(segments.begin(), segments.end(),
+                     [&](const Segment& a, const Segment& b) { return ends_of(a) < ends_of(b); });
+    segments.erase(std::unique(segments.begin(), segments.end(),
+                               [&](const Segment& a, const Segment& b) { return ends_of(a) == ends_of(b); }),
+                   segments.end());
+    std::map<std::pair<int, int>, int> first;  // edge -> first segment that ends there
+    UnionFind sets(segments.size());
+    for (size_t i = 0; i < segments.size(); i++)
+        for (const auto& edge : segments[i].edges) sets.join(int(i), first.emplace(edge, int(i)).first->second);
+    std::vector<Loop> loops;
+    std::vector<int> number(segments.size(), -1);
+    for (size_t i = 0; i < segments.size(); i++) {
+        int& loop = number[size_t(sets.find(int(i)))];
+        if (loop < 0) {
+            loop = int(loops.size());
+            loops.emplace_back();
+        }
+        loops[size_t(loop)].sums.add(segments[i].p, segments[i].q);
+        loops[size_t(loop)].segments.push_back(segments[i]);
+    }
+    return loops;
+}
+
+// What a plane cuts: the outlines of a solid, or all of a sheet; none if its area is zero.
 struct PlaneCut {
     double area = 0;
     Matrix2d moments = Matrix2d::Zero();
 };
-
-PlaneCut main_outline(const std::map<int, Sums>& components, double perimeter) {
-    for (const auto& [component, sums] : components) {
-        if (sums.perimeter < MAIN * perimeter || !sums.closed()) continue;
-        const Matrix2d moments = central_moments(sums);
-        const bool compact = sums.area * sums.area >= COMPACT * std::sqrt(moments.determinant());
-        if (moments.trace() > 0 && compact) return {std::abs(sums.area), moments};
-    }
-    return {};
-}
 
 // A sheet drawn with two faces may bow, so that its outline need not be compact.
 PlaneCut sheet_outline(const Sums& all) {
@@ -196,33 +243,107 @@ void average(const std::array<PlaneCut, 3>& cuts, const CapsuleFrame& frame, Out
     outline.thin = (direction.x() * frame.across + direction.y() * frame.other).normalized();
 }
 
-// Cuts triangles with the plane across a capsule and adds up the segments by component.
-std::map<int, Sums> cut_with_plane(const Topology& topology, const std::vector<int>& triangles,
-                                   const CapsuleFrame& frame, double share) {
-    std::map<int, Sums> components;
-    for (int t : triangles) {
-        std::array<Vec3, 3> corners;  // welded, so that outlines close where a soup's triangles only nearly meet
-        for (size_t k = 0; k < 3; k++) corners[k] = topology.points[size_t(topology.triangles[size_t(t)][k])];
-        Vector2d p, q;
-        if (cut_triangle(corners, topology.turned[size_t(t)] != 0, frame, share * frame.length, p, q))
-            components[topology.triangle_component[size_t(t)]].add(p, q);
-    }
-    return components;
+// Cuts triangles with the plane across a capsule.
+std::vector<Segment> cut_with_plane(const Topology& topology, const std::vector<int>& triangles,
+                                    const CapsuleFrame& frame, double share) {
+    std::vector<Segment> segments;
+    Segment segment;
+    for (int t : triangles)
+        if (cut_triangle(topology, t, frame, share * frame.length, segment)) segments.push_back(segment);
+    return segments;
 }
 
-Outline cut_capsule(const Topology& topology, const std::vector<int>& triangles, const CapsuleFrame& frame, bool sheet,
-                    bool foot, bool tip) {
+// The surface around one capsule.
+struct Around {
+    const Surface& surface;
+    const Topology& topology;
+    const Chain& chain;
+    const CapsuleFrame& frame;
+    int capsule;
+
+    // Whether of all capsules that share a loop's surface this one's axis is nearest to its middle: a plane across a
+    // branch also cuts the trunk that it begins in, and other branches.
+    bool owns(const Loop& loop, double share) const {
+        const Vector2d middle = loop.sums.first / loop.sums.area;
+        const Vec3 place =
+            frame.begin + share * frame.length * frame.axis + middle.x() * frame.across + middle.y() * frame.other;
+        std::vector<int> others;
+        for (const Segment& segment : loop.segments) {
+            const Triangle& triangle = surface.triangles[size_t(segment.triangle)];
+            list_nodes_between(chain, triangle, others);
+            for (int corner : triangle) {
+                others.push_back(chain.vertex_node[size_t(corner)]);
+                others.push_back(chain.vertex_capsule[size_t(corner)]);
+            }
+            for (int other : others)
+                if (other != capsule && distance_from(other, place) < middle.norm()) return false;
+        }
+        return true;
+    }
+    double distance_from(int other, const Vec3& place) const {
+        const int parent = chain.nodes[size_t(other)].parent;
+        if (parent < 0) return INFINITY;
+        const Vec3 begin = chain.nodes[size_t(parent)].position, along = chain.nodes[size_t(other)].position - begin;
+        const double square = along.squaredNorm();
+        const double s = square > 0 ? std::clamp((place - begin).dot(along) / square, 0.0, 1.0) : 0.0;
+        return (place - begin - s * along).norm();
+    }
+};
+
+// Collects the closed outlines of a capsule; none if what is left open is longer than they are.
+std::vector<Loop> own_outlines(const Around& around, std::vector<Loop> loops, double share) {
+    double closed = 0, open = 0;
+    std::vector<Loop> own;
+    for (Loop& loop : loops) {
+        if (!loop.sums.closed()) {
+            open += loop.sums.perimeter;
+        } else if (around.owns(loop, share)) {
+            closed += loop.sums.perimeter;
+            own.push_back(std::move(loop));
+        }
+    }
+    if (closed < open) own.clear();
+    return own;
+}
+
+// Adds up outlines: beams side by side, each bent about its own middle. Of what lies within another, the other face of
+// the same mesh is a hole, and the rest is where tissue is already.
+PlaneCut add_beams(const Topology& topology, const std::vector<Loop>& loops) {
+    PlaneCut cut;
+    const auto component = [&](const Loop& loop) {
+        return topology.triangle_component[size_t(loop.segments.front().triangle)];
+    };
+    const auto is_within = [](const Loop& inner, const Loop& outer) {
+        return std::abs(inner.sums.area) < std::abs(outer.sums.area) && outer.encloses(inner.segments.front().p);
+    };
+    for (const Loop& loop : loops) {
+        Sums beam = loop.sums;
+        bool is_first = true;
+        for (const Loop& other : loops) {
+            if (is_within(loop, other)) is_first = false;
+            const bool faces_it = other.sums.area * loop.sums.area < 0 && component(other) == component(loop);
+            if (faces_it && is_within(other, loop)) beam.add(other.sums);
+        }
+        if (!is_first) continue;
+        cut.area += std::abs(beam.area);
+        cut.moments += central_moments(beam);
+    }
+    return cut;
+}
+
+Outline cut_capsule(const Around& around, const std::vector<int>& triangles, bool sheet, bool foot, bool tip) {
     std::array<PlaneCut, 3> cuts;
     double area = 0, perimeter = 0;
     bool doubled = true;
     for (size_t plane = 0; plane < cuts.size(); plane++) {
-        const std::map<int, Sums> components = cut_with_plane(topology, triangles, frame, PLANES[plane]);
+        const std::vector<Segment> segments = cut_with_plane(around.topology, triangles, around.frame, PLANES[plane]);
         Sums all;
-        for (const auto& [component, sums] : components) all.add(sums);
+        for (const Segment& segment : segments) all.add(segment.p, segment.q);
         doubled = doubled && all.is_loop();  // two faces in one place enclose nothing
         area += std::abs(all.area);
         perimeter += all.perimeter;
-        cuts[plane] = sheet ? sheet_outline(all) : main_outline(components, all.perimeter);
+        cuts[plane] = sheet ? sheet_outline(all)
+                            : add_beams(around.topology, own_outlines(around, collect_loops(segments), PLANES[plane]));
     }
     Outline outline;
     outline.doubled = doubled;
@@ -233,7 +354,7 @@ Outline cut_capsule(const Topology& topology, const std::vector<int>& triangles,
     // A sheet's thickness does not change with its width, so it has no taper.
     outline.taper = sheet ? 0 : taper_of(cuts);
     if (outline.taper == 0) repair_ends(foot, tip, cuts);
-    average(cuts, frame, outline);
+    average(cuts, around.frame, outline);
     return outline;
 }
 
@@ -251,7 +372,8 @@ std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topolo
         if (parent < 0 || triangles[i].empty()) continue;
         const bool foot = chain.nodes[size_t(parent)].parent < 0;
         const bool sheet = is_sheet(organs[size_t(std::max(chain.nodes[i].organ, 0))]);
-        outlines[i] = cut_capsule(topology, triangles[i], frames[i], sheet, foot, is_tip[i]);
+        const Around around = {surface, topology, chain, frames[i], int(i)};
+        outlines[i] = cut_capsule(around, triangles[i], sheet, foot, is_tip[i]);
     }
     return outlines;
 }
@@ -269,8 +391,8 @@ std::vector<RibCut> cut_ribs(const Surface& surface, const Topology& topology, c
         double weight = 0;
         for (size_t plane = 0; plane < PLANES.size() && !triangles[i].empty(); plane++) {
             Sums all;
-            for (const auto& [component, sums] : cut_with_plane(topology, triangles[i], frames[i], PLANES[plane]))
-                if (sums.closed()) all.add(sums);
+            for (const Loop& loop : collect_loops(cut_with_plane(topology, triangles[i], frames[i], PLANES[plane])))
+                if (loop.sums.closed()) all.add(loop.sums);
             if (!(std::abs(all.area) > 0)) continue;
             weight += WEIGHTS[plane];
             rib.area += WEIGHTS[plane] * std::abs(all.area);

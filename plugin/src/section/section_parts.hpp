@@ -22,9 +22,9 @@ struct Spread {
 // The cuts of planes across a capsule with the surface, as those in its middle that together with the taper stand for
 // all of them.
 struct Outline {
-    bool found = false;                 // a plane cuts one closed, compact outline, or both faces of a sheet
-    double area;                        // enclosed area [m^2]
-    double inertia_thin, inertia_wide;  // [m^4]
+    bool found = false;                 // planes cut closed outlines, or both faces of a sheet
+    double area;                        // enclosed area, of all outlines [m^2]
+    double inertia_thin, inertia_wide;  // each outline's about its own middle, added up [m^4]
     double taper;                       // see Section
     Vec3 thin;
     // For sheets: whether they are drawn with two faces, and their distance, by the rectangle of equal
