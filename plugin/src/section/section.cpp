@@ -164,10 +164,27 @@ void continue_petioles(const Chain& chain, const std::vector<Organ>& organs, std
     }
 }
 
-// A surface of few triangles gives ragged sections: each that is not exact becomes the mean with its neighbours of the
-// same organ.
+// Returns the capsule in which each goes on within its organ, the straightest where it forks; -1 after a root, which
+// has no capsule, and at an end.
+std::vector<int> find_next(const Chain& chain, const std::vector<Section>& sections) {
+    std::vector<int> next(sections.size(), -1);
+    for (size_t i = 0; i < sections.size(); i++) {
+        const int parent = chain.nodes[i].parent;
+        if (parent < 0 || chain.nodes[size_t(parent)].parent < 0) continue;
+        if (chain.nodes[size_t(parent)].organ != chain.nodes[i].organ) continue;
+        const Vec3& axis = sections[size_t(parent)].axis;
+        int& straightest = next[size_t(parent)];
+        if (straightest < 0 || sections[i].axis.dot(axis) > sections[size_t(straightest)].axis.dot(axis))
+            straightest = int(i);
+    }
+    return next;
+}
+
+// A surface of few triangles gives ragged sections: each that is not exact becomes the mean with those before and after
+// it. A side branch is neither.
 void smooth_sections(const Chain& chain, const std::vector<char>& exact, std::vector<Section>& sections) {
     constexpr int PASSES = 2;  // after which the mean is over five capsules
+    const std::vector<int> next = find_next(chain, sections);
     for (int pass = 0; pass < PASSES; pass++) {
         std::vector<Section> sum = sections;
         std::vector<int> count(sections.size(), 1);
@@ -180,8 +197,7 @@ void smooth_sections(const Chain& chain, const std::vector<char>& exact, std::ve
         };
         for (size_t i = 0; i < chain.nodes.size(); i++) {
             const int parent = chain.nodes[i].parent;
-            if (parent < 0 || chain.nodes[size_t(parent)].organ != chain.nodes[i].organ) continue;
-            if (chain.nodes[size_t(parent)].parent < 0) continue;  // a root has no capsule
+            if (parent < 0 || next[size_t(parent)] != int(i)) continue;
             add(i, size_t(parent));
             add(size_t(parent), i);
         }
