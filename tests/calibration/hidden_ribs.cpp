@@ -31,4 +31,28 @@ TEST(HiddenRibs, CarryALeafThatIsNarrowAtItsBase) {
     EXPECT_LT(thickest(*model), 0.3);
 }
 
+// A tree whose twigs are drawn thinner than their leaves ask is not made stiffer as a whole.
+TEST(HiddenRibs, CarryATwigThatIsDrawnToAPoint) {
+    const frond_stem drawn[] = {{-1, {0, 0, 0}, {0, 1, 0}, 0.03, 0.02}, {0, {0, 1, 0}, {0, 1.5, 0.3}, 0.004, 1e-4}};
+    Surface tree = surface_from_stems(drawn, 2);
+    for (Part& part : tree.parts) part.name = "branch";
+    const Surface leaf = narrow_leaf();
+    for (int k = 0; k < 8; k++) {
+        Part part = leaf.parts[0];
+        part.first_triangle = int(tree.triangles.size());
+        tree.parts.push_back(part);
+        const int first = int(tree.positions.size());
+        const Eigen::AngleAxisd turn(k * M_PI / 4, Vec3::UnitY());
+        for (const Vec3& place : leaf.positions) tree.positions.push_back(Vec3(0, 1.5, 0.3) + turn * place);
+        for (const Triangle& t : leaf.triangles) tree.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    tree.normals.clear();
+    tree.uvs.clear();
+    tree.colors.clear();
+    const auto model = build_from_surface(tree, model_def());
+    EXPECT_LE(model->stiffening_factor, 3);
+    // Its trunk is no stiffer than it is drawn.
+    EXPECT_NEAR(model->sections[1].inertia_thin / (M_PI / 4 * std::pow(0.03, 4)), 0.9, 0.15);
+}
+
 }  // namespace frond::test

@@ -1,7 +1,8 @@
 // A leaf that a file shows as a bare sheet is carried by a midrib in life. Plants make it as thick as its load asks, so
 // that it bends about equally along its length; it is thickest at the base, where many drawn leaves are narrowest. So
 // where an organ of a chosen material could by far not carry itself, a round rib of that thickness is put into its
-// sections: of a midrib's tissue, and never thicker than a share of the leaf's width at its widest.
+// sections: of a midrib's tissue, and never thicker than a share of the leaf's width at its widest. Twigs, which many
+// trees draw as part of their trunk, thinner than what hangs on them asks, get wood in the same way.
 #include "calibration/hidden_ribs.hpp"
 
 #include <algorithm>
@@ -50,9 +51,10 @@ Turns find_turns(const Model& model) {
 
 namespace {
 
-// Leaves have midribs, and stalks go on within fruits; petals are stiff by the pressure of their water.
+// Leaves have midribs, stalks go on within fruits, and wood in twigs; petals are stiff by the pressure of their water.
 bool hides_a_rib(const Organ& organ) {
-    return (organ.kind == "blade" || organ.kind == "fruit") && !organ.young_given && !organ.midrib_given;
+    const bool may_hide = organ.kind == "blade" || organ.kind == "fruit" || organ.kind == "branch";
+    return may_hide && !organ.young_given && !organ.midrib_given;
 }
 
 // Organs whose ribs may be thickened, with the sizes that limit them.
