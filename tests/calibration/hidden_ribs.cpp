@@ -1,6 +1,8 @@
 // Leaves that a bare sheet would not carry get a midrib.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "modelling/build.hpp"
 #include "support/model_def.hpp"
 #include "support/narrow_leaf.hpp"
@@ -53,6 +55,15 @@ TEST(HiddenRibs, CarryATwigThatIsDrawnToAPoint) {
     EXPECT_LE(model->stiffening_factor, 3);
     // Its trunk is no stiffer than it is drawn.
     EXPECT_NEAR(model->sections[1].inertia_thin / (M_PI / 4 * std::pow(0.03, 4)), 0.9, 0.15);
+}
+
+// The branches of corn's tassel bear spikelets to their tips, which are drawn as points.
+TEST(HiddenRibs, CarryTheTipsOfATassel) {
+    const auto model = build_from_file(FROND_SOURCE_DIR "/models/corn/corn.obj", model_def());
+    const auto tassel = std::find_if(model->organs.begin(), model->organs.end(),
+                                     [](const Organ& organ) { return organ.kind == "peduncle"; });
+    ASSERT_NE(tassel, model->organs.end());
+    EXPECT_LE(model->organ_stiffer[size_t(tassel - model->organs.begin())], 3);
 }
 
 }  // namespace frond::test

@@ -2,10 +2,12 @@
 // that it bends about equally along its length; it is thickest at the base, where many drawn leaves are narrowest. So
 // where an organ of a chosen material could by far not carry itself, a round rib of that thickness is put into its
 // sections: of a midrib's tissue, and never thicker than a share of the leaf's width at its widest. Twigs, which many
-// trees draw as part of their trunk, thinner than what hangs on them asks, get wood in the same way.
+// trees draw as part of their trunk, and stalks of flowers, drawn to a point, are thinner than what hangs on them asks:
+// they get tissue in the same way.
 #include "calibration/hidden_ribs.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "calibration/weigh.hpp"
 #include "core/elementary.hpp"
@@ -51,9 +53,11 @@ Turns find_turns(const Model& model) {
 
 namespace {
 
-// Leaves have midribs, stalks go on within fruits, and wood in twigs; petals are stiff by the pressure of their water.
+// Leaves have midribs, stalks go on within fruits and to the tips of tassels, and wood in twigs; petals are stiff by
+// the pressure of their water.
 bool hides_a_rib(const Organ& organ) {
-    const bool may_hide = organ.kind == "blade" || organ.kind == "fruit" || organ.kind == "branch";
+    constexpr std::array KINDS = {"blade", "fruit", "branch", "peduncle"};
+    const bool may_hide = std::find(KINDS.begin(), KINDS.end(), organ.kind) != KINDS.end();
     return may_hide && !organ.young_given && !organ.midrib_given;
 }
 

@@ -1,4 +1,4 @@
-// Gives leaves and fruits the ribs and stalks that their files do not show.
+// Gives leaves, fruits, twigs and peduncles the ribs, stalks and wood that their files do not show.
 #pragma once
 
 #include "model/model.hpp"
@@ -12,9 +12,9 @@ struct Turns {
 };
 Turns find_turns(const Model& model);
 
-// Puts ribs into the sections of leaves and fruits, so thick that `load` times their weight, by organ, applied
-// sideways, turns them by no more than `turn` [rad], but no thicker than ribs are. Organs with a load of zero stay.
-// Returns whether there was such an organ.
+// Puts ribs into the sections of such organs, so thick that `load` times their weight, by organ, applied sideways,
+// turns them by no more than `turn` [rad], but no thicker than ribs are. Organs with a load of zero stay. Returns
+// whether there was such an organ.
 bool grow_hidden_ribs(Model& model, const std::vector<double>& load, double turn);
 
 }  // namespace frond
