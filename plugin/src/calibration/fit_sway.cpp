@@ -60,6 +60,7 @@ RodSways find_sways(const Model& model, const RodElements& elements, frond_mecha
     for (size_t i = 0; i < found.size(); i++) {
         if (found[i].shape.size() == 0) continue;
         sways.square[i] = found[i].square;
+        sways.direction[i] = found[i].direction;
         const VecX energies = sways.energies[i] = energies_of(model, elements, found[i].shape);
         for (size_t o = 0; o < sways.carries.size(); o++)
             if (bears[o] && energies[Eigen::Index(o)] > MUCH * energies.sum()) sways.carries[o] = 1;
@@ -93,7 +94,10 @@ SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanic
     constexpr double LARGEST_STEP = 0.7;  // change of a logarithm [-]
     constexpr double RIGID = 0.01;        // weight of a change relative to an error [-]
     const VecX mass = mechanics(which, elements.nodes.order).masses(elements, FROND_MASS_LUMPED).node;
-    const std::array<Sway, 2> sways = first_sways(stiffness, mass, still);
+    std::array<Sway, 2> sways = first_sways(stiffness, mass, still);
+    // A cage may be the slower one in the direction in which its rods are the faster ones.
+    const auto alike = [&](size_t i) { return std::abs(sways[0].direction.dot(rods.direction[i])); };
+    if (alike(0) < alike(1)) std::swap(sways[0], sways[1]);
     VecX errors = VecX::Zero(Eigen::Index(sways.size()));
     MatX slope = MatX::Zero(errors.size(), Eigen::Index(elements.tets.size()));
     for (size_t i = 0; i < sways.size(); i++) {

@@ -13,6 +13,7 @@ std::vector<uint8_t> still_nodes(const Model& model, const Elements& elements, b
 struct Sway {
     VecX shape;         // mode with a kinetic energy of a half at a velocity of one [1/sqrt kg]; empty: nothing moves
     double square = 0;  // square of the angular frequency [1/s^2]
+    Vec3 direction = Vec3::Zero();  // horizontal direction of the pull, unit length
 };
 // Returns the modes that are seen when the body is pulled aside by its own weight, in the horizontal direction in which
 // that moves it farthest and across, and released: the modes with the largest part in that, with those of nearly the

@@ -90,6 +90,7 @@ static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std:
     solve(stiffness, load, sway.shape);
     sway.shape /= std::sqrt(sway.shape.dot(times_mass(node_mass, still, sway.shape)));
     sway.square = (shares.square() / inverse).sum() / shares.square().sum();
+    sway.direction = direction;
     if (!(sway.square > 0) || !sway.shape.allFinite()) return {};
     return sway;
 }
