@@ -4,7 +4,8 @@
 // Moduli that are right for each organ alone are not for the plant: where organs meet, cells are shared and copies of
 // them overlap, and weight takes more from a coarse cage's stiffness than from a rod's. By Rayleigh's principle the
 // derivative of the square of a mode's frequency by the logarithm of a tet's modulus is the tet's elastic energy in the
-// mode, and the force that weight exerts is the same whatever the moduli are.
+// mode, and the force that weight exerts is the same whatever the moduli are. Only what carries the plant is pulled, as
+// leaves that are too stiff in a cage, and in resonance with a stem there, would be taken for it.
 #include "calibration/fit_sway.hpp"
 
 #include <algorithm>
@@ -55,15 +56,22 @@ RodSways find_sways(const Model& model, const RodElements& elements, frond_mecha
     const std::vector<uint8_t> still = still_nodes(model, elements, true);
     StaticStiffness stiffness(elements.pattern);
     if (!stiffness.set(elements, still, row, Tangent::exact, elements.modelled)) return sways;
-    const std::array<Sway, 2> found =
-        first_sways(stiffness.factor, row.masses(elements, FROND_MASS_LUMPED).node, still);
+    const VecX mass = row.masses(elements, FROND_MASS_LUMPED).node;
+    for (const Sway& sway : first_sways(stiffness.factor, mass, still)) {
+        if (sway.shape.size() == 0) continue;
+        const VecX energies = energies_of(model, elements, sway.shape);
+        for (size_t o = 0; o < sways.carries.size(); o++)
+            if (bears[o] && energies[Eigen::Index(o)] > MUCH * energies.sum()) sways.carries[o] = 1;
+    }
+    std::vector<uint8_t> left_out = still;
+    for (size_t i = 0; i < model.chain.nodes.size(); i++)
+        if (!sways.carries[size_t(std::max(model.chain.nodes[i].organ, 0))]) left_out[2 * i] = left_out[2 * i + 1] = 1;
+    const std::array<Sway, 2> found = first_sways(stiffness.factor, mass, still, left_out);
     for (size_t i = 0; i < found.size(); i++) {
         if (found[i].shape.size() == 0) continue;
         sways.square[i] = found[i].square;
         sways.direction[i] = found[i].direction;
-        const VecX energies = sways.energies[i] = energies_of(model, elements, found[i].shape);
-        for (size_t o = 0; o < sways.carries.size(); o++)
-            if (bears[o] && energies[Eigen::Index(o)] > MUCH * energies.sum()) sways.carries[o] = 1;
+        sways.energies[i] = energies_of(model, elements, found[i].shape);
     }
     return sways;
 }
@@ -88,13 +96,26 @@ static VecX energies_of(const TetElements& elements, frond_mechanics which, cons
     return energies;
 }
 
+// Returns the nodes that are still or of no organ that carries the plant.
+static std::vector<uint8_t> nodes_of_others(const Model& model, const TetElements& elements,
+                                            const std::vector<uint8_t>& still, const std::vector<char>& carries) {
+    std::vector<uint8_t> others(still.size(), 1);
+    for (size_t e = 0; e < elements.tets.size(); e++) {
+        if (!carries[size_t(model.cage.tet_organ[e])]) continue;
+        const ElementNodes nodes = element_nodes(elements, e);
+        for (size_t n = 0; n < nodes.count; n++) others[size_t(nodes.node[n])] = still[size_t(nodes.node[n])];
+    }
+    return others;
+}
+
 SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanics which, const VecX& x,
                  BlockFactor& stiffness, const std::vector<uint8_t>& still, const RodSways& rods, const VecX& done) {
     constexpr double FARTHEST = 1.8;      // total change of a logarithm [-]
     constexpr double LARGEST_STEP = 0.7;  // change of a logarithm [-]
     constexpr double RIGID = 0.01;        // weight of a change relative to an error [-]
     const VecX mass = mechanics(which, elements.nodes.order).masses(elements, FROND_MASS_LUMPED).node;
-    std::array<Sway, 2> sways = first_sways(stiffness, mass, still);
+    std::array<Sway, 2> sways =
+        first_sways(stiffness, mass, still, nodes_of_others(model, elements, still, rods.carries));
     // A cage may be the slower one in the direction in which its rods are the faster ones.
     const auto alike = [&](size_t i) { return std::abs(sways[0].direction.dot(rods.direction[i])); };
     if (alike(0) < alike(1)) std::swap(sways[0], sways[1]);

@@ -20,5 +20,9 @@ struct Sway {
 // same frequency combined; the slower one first. Takes a body's stiffness, factorized, and the masses of its nodes
 // [kg].
 std::array<Sway, 2> first_sways(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still);
+// Does the same for a body of which nodes are `left_out` of the pull, those that are still among them: with leaves left
+// out the modes are those of the stem, even where leaves of their own are in resonance with it.
+std::array<Sway, 2> first_sways(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still,
+                                const std::vector<uint8_t>& left_out);
 
 }  // namespace frond

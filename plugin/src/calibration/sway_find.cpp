@@ -41,11 +41,11 @@ static VecX move_along(const Vec3& direction, const std::vector<uint8_t>& still)
 }
 
 static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still,
-                       const Vec3& direction) {
+                       const std::vector<uint8_t>& left_out, const Vec3& direction) {
     constexpr int MOST_STEPS = 12;  // of Lanczos: the modes that a push excites, and few more
     constexpr double CLOSE = 0.3;   // width in logarithms of frequencies' squares within which modes are combined [-]
     std::vector<VecX> basis, weighted;  // normalised to unit mass; the same times the masses
-    VecX next = move_along(direction, still);
+    VecX next = move_along(direction, left_out);
     VecX diagonal = VecX::Zero(MOST_STEPS),
          beside = VecX::Zero(MOST_STEPS);  // tridiagonal matrix in that basis
     int steps = 0;
@@ -96,15 +96,20 @@ static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std:
 }
 
 std::array<Sway, 2> first_sways(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still) {
-    const VecX load_x = times_mass(node_mass, still, move_along(Vec3::UnitX(), still));
-    const VecX load_z = times_mass(node_mass, still, move_along(Vec3::UnitZ(), still));
+    return first_sways(stiffness, node_mass, still, still);
+}
+
+std::array<Sway, 2> first_sways(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still,
+                                const std::vector<uint8_t>& left_out) {
+    const VecX load_x = times_mass(node_mass, still, move_along(Vec3::UnitX(), left_out));
+    const VecX load_z = times_mass(node_mass, still, move_along(Vec3::UnitZ(), left_out));
     VecX move_x, move_z;
     solve(stiffness, load_x, move_x);
     solve(stiffness, load_z, move_z);
     const double angle = 0.5 * frond::atan2(2 * load_x.dot(move_z), load_x.dot(move_x) - load_z.dot(move_z));
     const Vec3 softest(frond::cos(angle), 0, frond::sin(angle));
-    std::array<Sway, 2> sways = {first_sway(stiffness, node_mass, still, softest),
-                                 first_sway(stiffness, node_mass, still, softest.cross(Vec3::UnitY()))};
+    std::array<Sway, 2> sways = {first_sway(stiffness, node_mass, still, left_out, softest),
+                                 first_sway(stiffness, node_mass, still, left_out, softest.cross(Vec3::UnitY()))};
     if (sways[1].square < sways[0].square) std::swap(sways[0], sways[1]);
     return sways;
 }
