@@ -15,6 +15,8 @@ void take_materials(Model& model) {
     const size_t tet_count = model.cage.tets.size();
     model.tet_young.resize(tet_count);
     model.tet_poisson.resize(tet_count);
+    model.tet_grain.assign(tet_count, 0);
+    model.tet_axis.assign(tet_count, Vec3::UnitX());
     for (size_t e = 0; e < tet_count; e++) {
         const size_t organ = size_t(model.cage.tet_organ[e]);
         const Material& material = model.organs[organ].material;
@@ -33,13 +35,17 @@ static void take_moduli(Model& model, const LoneOrgan& lone) {
     const double mean = frond::exp(sum / double(lone.tets.size()));
     for (size_t e = 0; e < model.tet_young.size(); e++)
         if (model.cage.tet_organ[e] == lone.organ) model.tet_young[e] *= mean;
-    for (size_t e = 0; e < lone.tets.size(); e++) model.tet_young[lone.tets[e]] = lone.model.tet_young[e];
+    for (size_t e = 0; e < lone.tets.size(); e++) {
+        model.tet_young[lone.tets[e]] = lone.model.tet_young[e];
+        model.tet_grain[lone.tets[e]] = lone.model.tet_grain[e];
+    }
 }
 
 void calibrate(Model& model, int order) {
     take_materials(model);  // the rule of mixtures, to begin with
     Model beams = join_beams(model);
     const std::vector<int> hangs = hang_tets(beams);
+    for (size_t e = 0; e < hangs.size(); e++) beams.tet_axis[e] = beams.sections[size_t(hangs[e])].axis.normalized();
     std::vector<char> alone;
     for (LoneOrgan& lone : take_organs(beams)) {
         alone.push_back(lone.is_sound() && fit_moduli(lone, beams, hangs, order));
@@ -47,6 +53,8 @@ void calibrate(Model& model, int order) {
     }
     calibrate_together(beams, alone, order);
     model.tet_young = std::move(beams.tet_young);
+    model.tet_grain = std::move(beams.tet_grain);
+    model.tet_axis = std::move(beams.tet_axis);
     model.calibrated = true;
 }
 

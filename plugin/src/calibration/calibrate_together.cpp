@@ -38,7 +38,8 @@ double cage_energy(const Model& model, const TetElements& elements, const VecX& 
         take_gradients(elements, e, moved, [&](const TetShare& share, const Mat3& F) {
             const double swelling = F.trace();
             sum += share.volume *
-                   (share.mu * (0.5 * (F + F.transpose())).squaredNorm() + 0.5 * share.lambda * swelling * swelling);
+                   (share.mu * (0.5 * (F + F.transpose())).squaredNorm() + 0.5 * share.lambda * swelling * swelling +
+                    0.5 * share.grain * share.mu * stretch_along(share, F) * stretch_along(share, F));
         });
     }
     return sum;

@@ -30,7 +30,8 @@ std::vector<Compliance> rod_compliances(const Model& plant, int organ, const Loa
 using CageLoads = Eigen::Matrix<double, Eigen::Dynamic, LOAD_COUNT>;
 CageLoads cage_loads(const LoneOrgan& lone, const TetElements& elements, const Model& plant,
                      const std::vector<int>& hangs, const LoadPlaces& places);
-// Returns each tet's share in the compliance of an organ's cage; empty if its root does not hold it.
+// Returns the shares in the compliance of an organ's cage of each tet's tissue, then of each tet's fibres; empty if its
+// root does not hold it.
 std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElements& elements, StaticStiffness& stiffness,
                                          const CageLoads& loads);
 

@@ -101,7 +101,11 @@ std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElement
         moves[size_t(l)].resize(loads.rows());
         solve(stiffness.factor, loads.col(l), moves[size_t(l)]);
     }
-    return products_of_tets<LOAD_COUNT>(elements, moves);
+    const std::vector<TetProducts<LOAD_COUNT>> of_tets = products_of_tets<LOAD_COUNT>(elements, moves);
+    std::vector<Compliance> shares;
+    for (const auto& of_tet : of_tets) shares.push_back(of_tet.tissue);
+    for (const auto& of_tet : of_tets) shares.push_back(of_tet.grain);
+    return shares;
 }
 
 Compliance sum_of(const std::vector<Compliance>& shares) {

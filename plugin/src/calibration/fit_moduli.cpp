@@ -24,6 +24,7 @@ struct Bench {
     TetElements elements;
     StaticStiffness stiffness;
     CageLoads loads;
+    bool blade = false;
 
     Bench(LoneOrgan& lone, const Compliance& rods, int order)
         : lone(lone),
@@ -37,7 +38,18 @@ struct Bench {
         elements.mu[e] *= factor;
         elements.lambda[e] *= factor;
     }
-    bool is_blade() const { return rods(TIP_FORCE, TIP_FORCE) > 10 * rods(TIP_FORCE + 1, TIP_FORCE + 1); }
+    // Scales the fibres' modulus alone.
+    void scale_grain(size_t e, double factor) {
+        lone.model.tet_grain[e] *= factor;
+        elements.grain[e] *= factor;
+    }
+    // Scales one part, counted as measure() does.
+    void scale_part(size_t part, double factor) {
+        const size_t count = lone.tets.size();
+        if (part >= count) return scale_grain(part - count, factor);
+        scale(part, factor);
+        scale_grain(part, 1 / factor);
+    }
     std::vector<Compliance> measure() { return cage_compliances(lone, elements, stiffness, loads); }
 };
 
@@ -70,6 +82,48 @@ double energy_of(const Compliance& share, const Compliance& rods) {
     return trace(share, TIP_FORCE) / trace(rods, TIP_FORCE) + trace(share, WEIGHT) / trace(rods, WEIGHT);
 }
 constexpr double WHOLE_ENERGY = 2;  // energy_of() the rods: a share of one for either load [-]
+
+// Divides the moduli between tissue and fibres until twist is right as well as bending: fibres do not resist twist.
+bool fit_parts(Bench& bench) {
+    constexpr int ROUNDS = 10;
+    constexpr double LARGEST_STEP = 1.5, LEAST_GRAIN = 0.01;
+    double MOST_GRAIN = getenv("MOST") ? atof(getenv("MOST")) : 100;
+    if (bench.rods(TIP_FORCE, TIP_FORCE) > 10 * bench.rods(TIP_FORCE + 1, TIP_FORCE + 1) || bench.blade) MOST_GRAIN = getenv("BL") ? atof(getenv("BL")) : 0.01;
+    const size_t count = bench.lone.tets.size();
+    double grain = std::min(10.0, MOST_GRAIN);
+    for (size_t e = 0; e < count; e++) bench.lone.model.tet_grain[e] = bench.elements.grain[e] = grain;
+    for (int round = 0; round < ROUNDS; round++) {
+        const std::vector<Compliance> shares = bench.measure();
+        if (shares.empty()) return false;
+        Compliance tissue = Compliance::Zero(), fibres = tissue;
+        for (size_t e = 0; e < count; e++) tissue += shares[e], fibres += shares[count + e];
+        const auto twist = [&](const Compliance& c) { return c(TIP_MOMENT + 2, TIP_MOMENT + 2); };
+        const auto bend = [&](const Compliance& c) { return energy_of(c, bench.rods); };
+        const double twisted = twist(tissue) + twist(fibres), bent = bend(tissue) + bend(fibres);
+        Eigen::Matrix2d slope;
+        slope << twist(tissue) / twisted, twist(fibres) / twisted, bend(tissue) / bent, bend(fibres) / bent;
+        const Eigen::Vector2d error(frond::log(twisted / twist(bench.rods)), frond::log(bent / WHOLE_ENERGY));
+        const Eigen::Matrix2d square = slope.transpose() * slope + 1e-3 * Eigen::Matrix2d::Identity();
+        const Eigen::Vector2d step =
+            (square.inverse() * slope.transpose() * error).cwiseMax(-LARGEST_STEP).cwiseMin(LARGEST_STEP);
+        const double next = std::clamp(grain * frond::exp(step[1] - step[0]), LEAST_GRAIN, MOST_GRAIN);
+        for (size_t e = 0; e < count; e++) {
+            bench.scale(e, frond::exp(step[0]));
+            bench.scale_grain(e, next / grain);
+        }
+        grain = next;
+    }
+    if (getenv("FIT")) {
+        const std::vector<Compliance> shares = bench.measure();
+        Compliance tissue = Compliance::Zero(), fibres = tissue;
+        for (size_t e = 0; e < count; e++) tissue += shares[e], fibres += shares[count + e];
+        fprintf(stderr, "grain %g; of fibres", grain);
+        for (int i = 0; i < LOAD_COUNT; i++) fprintf(stderr, "%s%.2f", i % 3 ? " " : " | ", fibres(i, i) / (tissue(i,i)+fibres(i,i)));
+        for (int i = 0; i < LOAD_COUNT; i++) fprintf(stderr, "%s%.3g", i % 3 ? " " : " | ", (tissue(i,i)+fibres(i,i))/ bench.rods(i, i));
+        fprintf(stderr, "\n");
+    }
+    return true;
+}
 
 // The slab of each tet, and the energy that the rods have there.
 struct Places {
@@ -111,7 +165,7 @@ bool fit_places(Bench& bench, const Places& places) {
         std::vector<double> cage(places.wanted.size(), 0.0);
         double sum = 0;
         for (size_t e = 0; e < tet_count; e++) {
-            const double energy = energy_of(shares[e], bench.rods);
+            const double energy = energy_of(shares[e] + shares[tet_count + e], bench.rods);
             cage[size_t(places.of_tet[e])] += energy;
             sum += energy;
         }
@@ -130,27 +184,18 @@ bool fit_places(Bench& bench, const Places& places) {
 
 // ---- tet by tet --------------------------------------------------------------------------------------------------
 
-// Aims of the fit: at first all loads count; then twist and moments hardly do; if that leaves bending far off, as in
-// cells as long as a stem is thick, stretch hardly counts either, which fibres bear.
-enum class Aim { EVERYTHING, BENDING, BENDING_ONLY };
-
 bool is_moment(int load) {
     return load >= TIP_MOMENT && load < TIP_MOMENT + 3;
 }
 
-bool is_along(int load) {
-    return load % 3 == 2;
-}
-
 // Returns how much a load counts.
-double weight_of(int load, Aim aim) {
-    if (load == TIP_MOMENT + 2) return aim == Aim::EVERYTHING ? 0.5 : 1e-3;
-    if (is_moment(load)) return aim == Aim::EVERYTHING ? 0.5 : 0.1;
-    return is_along(load) && aim == Aim::BENDING_ONLY ? 0.1 : 1;
+double weight_of(int load) {
+    static const double TW = getenv("TW") ? atof(getenv("TW")) : 0.5, MO = getenv("MO") ? atof(getenv("MO")) : 0.5;
+    return load == TIP_MOMENT + 2 ? TW : is_moment(load) ? MO : 1;
 }
 
-// A compliance much smaller than the largest of its kind counts as zero.
-constexpr double FLOOR = 0.03;  // over the largest [-]
+// Share of the largest compliance of a kind that is added to all of them, as what a load hardly moves hardly counts.
+static const double FLOOR = getenv("FLOOR") ? atof(getenv("FLOOR")) : 1;  // [-]
 
 // Errors of a cage's compliance and their derivatives by the logarithms of the tets' moduli.
 struct Errors {
@@ -160,7 +205,7 @@ struct Errors {
 
 // Finds the errors: of a load with itself the logarithm of the ratio, cage over rods; of two loads the difference of
 // their correlations.
-Errors errors_of(const std::vector<Compliance>& shares, const Compliance& rods, Aim aim) {
+Errors errors_of(const std::vector<Compliance>& shares, const Compliance& rods) {
     constexpr double LARGE = 0.5;  // error beyond which it counts less, because it may be impossible to remove [-]
     using Sizes = Eigen::Matrix<double, LOAD_COUNT, 1>;
     const Compliance cage = sum_of(shares);
@@ -180,7 +225,7 @@ Errors errors_of(const std::vector<Compliance>& shares, const Compliance& rods, 
         const double size = std::sqrt(is[i] * is[j]), alike = cage(i, j) / size;
         const double error =
             i == j ? frond::log(is[i] / wanted[i]) : alike - rods(i, j) / std::sqrt(wanted[i] * wanted[j]);
-        const double counts = std::sqrt(weight_of(i, aim) * weight_of(j, aim) / (1 + error * error / (LARGE * LARGE)));
+        const double counts = std::sqrt(weight_of(i) * weight_of(j) / (1 + error * error / (LARGE * LARGE)));
         errors.value[k] = counts * error;
         for (size_t e = 0; e < shares.size(); e++) {
             const double by_sizes = i == j ? 0 : 0.5 * alike * (shares[e](i, i) / is[i] + shares[e](j, j) / is[j]);
@@ -190,80 +235,43 @@ Errors errors_of(const std::vector<Compliance>& shares, const Compliance& rods, 
     return errors;
 }
 
-// Largest errors of the cage's compliance to forces and weight, as logarithms of the ratio to the rods', small ones
-// left out: of all, and of those across.
-struct WorstErrors {
-    double all = INFINITY, across = INFINITY;
-};
-WorstErrors worst_errors(const std::vector<Compliance>& shares, const Compliance& rods) {
-    if (shares.empty()) return {};
-    const Compliance cage = sum_of(shares);
-    WorstErrors worst = {0, 0};
-    for (int first : {TIP_FORCE, WEIGHT}) {
-        const double least = FLOOR * rods.diagonal().segment<3>(first).maxCoeff();
-        for (int i = first; i < first + 3; i++) {
-            if (rods(i, i) <= least) continue;
-            const double error = std::abs(frond::log(cage(i, i) / rods(i, i)));
-            worst.all = std::max(worst.all, error);
-            if (!is_along(i)) worst.across = std::max(worst.across, error);
-        }
-    }
-    return worst;
-}
-
 // Progress of a fit, and the best state on its way: rounds may overshoot where tets are at their bounds.
 struct Progress {
-    VecX change;  // change of the moduli's logarithms
+    VecX change;  // change of the logarithms of the parts' moduli
     VecX best_change;
-    double best_error = INFINITY;  // its worst error of all
+    double least_error = INFINITY;  // sum of the squares of its errors
 };
 
 void move_to(Bench& bench, Progress& progress, const VecX& change) {
-    for (size_t e = 0; e < bench.lone.tets.size(); e++)
-        bench.scale(e, frond::exp(change[Eigen::Index(e)] - progress.change[Eigen::Index(e)]));
+    for (Eigen::Index part = 0; part < change.size(); part++)
+        bench.scale_part(size_t(part), frond::exp(change[part] - progress.change[part]));
     progress.change = change;
 }
 
-bool fit_rounds(Bench& bench, Aim aim, int rounds, Progress& progress) {
-    constexpr double SOFTEST = 0.25, STIFFEST = 6;  // modulus of a tet over its first one [-]
+bool fit_tets(Bench& bench) {
+    static const int ROUNDS = getenv("ROUNDS") ? atoi(getenv("ROUNDS")) : 10;
+    static const double SOFTEST = getenv("LO") ? atof(getenv("LO")) : 0.25, STIFFEST = getenv("HI") ? atof(getenv("HI")) : 6;  // modulus over the first one [-]
     constexpr double LARGEST_STEP = 1;              // of a logarithm [-]
     constexpr double RIGID = 0.01;                  // weight of a change relative to an error [-]
-    constexpr double CLOSE = 2e-3;                  // error that counts as none [-]
     const double softest = frond::log(SOFTEST), stiffest = frond::log(STIFFEST);
-    for (int round = 0; round < rounds; round++) {
+    const VecX before = VecX::Zero(2 * Eigen::Index(bench.lone.tets.size()));
+    Progress progress = {before, before};
+    for (int round = 0; round <= ROUNDS; round++) {
         const std::vector<Compliance> shares = bench.measure();
         if (shares.empty()) return false;
-        const Errors errors = errors_of(shares, bench.rods, aim);
-        if (aim != Aim::EVERYTHING && errors.value.lpNorm<Eigen::Infinity>() < CLOSE) break;
-        const double worst = worst_errors(shares, bench.rods).all;
-        if (worst < progress.best_error) {
-            progress.best_error = worst;
+        const Errors errors = errors_of(shares, bench.rods);
+        const double error = errors.value.squaredNorm();
+        if (error < progress.least_error) {
+            progress.least_error = error;
             progress.best_change = progress.change;
         }
+        if (round == ROUNDS) break;
         const VecX step =
             least_change(errors.slope, -errors.value, (softest - progress.change.array()).max(-LARGEST_STEP),
                          (stiffest - progress.change.array()).min(LARGEST_STEP), RIGID);
         move_to(bench, progress, progress.change + step);
     }
-    return true;
-}
-
-bool fit_tets(Bench& bench) {
-    constexpr double BENDS = 0.05, MENDED = 0.2;  // errors of a logarithm [-]
-    const VecX before = VecX::Zero(Eigen::Index(bench.lone.tets.size()));
-    Progress progress = {before, before};
-    if (!fit_rounds(bench, Aim::EVERYTHING, 5, progress) || !fit_rounds(bench, Aim::BENDING, 3, progress)) return false;
-    WorstErrors worst = worst_errors(bench.measure(), bench.rods);
-    if (worst.all > MENDED && progress.best_error < MENDED && !bench.is_blade()) {
-        move_to(bench, progress, progress.best_change);
-        worst = worst_errors(bench.measure(), bench.rods);
-    }
-    // If no fit is possible, as in blades one cell thick and many times as wide, the tets' moduli spread in vain, and
-    // the softest tets turn inside out when the plant is pulled.
-    if (worst.all > MENDED)
-        move_to(bench, progress, before);
-    else if (worst.across > BENDS && !bench.is_blade())
-        return fit_rounds(bench, Aim::BENDING_ONLY, 3, progress);
+    move_to(bench, progress, progress.best_change);
     return true;
 }
 
@@ -282,8 +290,16 @@ bool fit_moduli(LoneOrgan& lone, const Model& plant, const std::vector<int>& han
             first_modulus(plant.sections[size_t(hangs[lone.tets[e]])], plant.organ_stiffer[size_t(lone.organ)], edge,
                           plant.cage.tet_fill[lone.tets[e]]);
     Bench bench(lone, rods, order);
+    bench.blade = plant.organs[size_t(lone.organ)].kind == "blade";
     bench.loads = cage_loads(lone, bench.elements, plant, hangs, load_places);
-    return fit_places(bench, find_places(lone, plant, hangs, rod_shares, rods)) && fit_tets(bench);
+    const bool ok = fit_parts(bench) && fit_places(bench, find_places(lone, plant, hangs, rod_shares, rods)) && fit_tets(bench);
+    if (getenv("FIT")) {
+        const Compliance cage = sum_of(bench.measure());
+        fprintf(stderr, "%-14s o%d tets %4zu  ", plant.organs[size_t(lone.organ)].name.c_str(), order, lone.tets.size());
+        for (int i = 0; i < LOAD_COUNT; i++) fprintf(stderr, "%s%.3g", i % 3 ? " " : " | ", cage(i, i) / rods(i, i));
+        fprintf(stderr, "   rods tip %.2g %.2g %.2g\n", rods(0, 0), rods(1, 1), rods(2, 2));
+    }
+    return ok;
 }
 
 }  // namespace frond

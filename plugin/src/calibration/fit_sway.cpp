@@ -89,8 +89,10 @@ static VecX energies_of(const TetElements& elements, frond_mechanics which, cons
         take_gradients(elements, e, shape, [&](const TetShare& share, const Mat3& change) {
             const Mat3 gradient = turned[q++].transpose() * change;
             const Mat3 strain = 0.5 * (gradient + gradient.transpose());
+            const double along = stretch_along(share, gradient);
             energies[Eigen::Index(e)] +=
-                share.volume * (2 * share.mu * strain.squaredNorm() + share.lambda * strain.trace() * strain.trace());
+                share.volume * (2 * share.mu * strain.squaredNorm() + share.lambda * strain.trace() * strain.trace() +
+                                share.grain * share.mu * along * along);
         });
     }
     return energies;

@@ -74,6 +74,9 @@ TetElements take_organ(const TetElements& all, const std::vector<int>& tet_organ
         take(all.volume, one.volume, e);
         take(all.lambda, one.lambda, e);
         take(all.mu, one.mu, e);
+        take(all.grain, one.grain, e);
+        take(all.grain_modelled, one.grain_modelled, e);
+        take(all.grain_axis, one.grain_axis, e, points);
         take(all.slots, one.slots, e);
         take(all.quadratic_slots, one.quadratic_slots, e);
     }

@@ -63,15 +63,18 @@ void keep_tets(LoneOrgan& lone, const std::vector<char>& keep) {
         model.cage.tets[kept] = model.cage.tets[e];
         model.cage.tet_organ[kept] = model.cage.tet_organ[e];
         lone.tets[kept] = lone.tets[e];
-        for (std::vector<double>* constants : {&model.tet_density, &model.tet_young, &model.tet_poisson})
+        for (std::vector<double>* constants :
+             {&model.tet_density, &model.tet_young, &model.tet_poisson, &model.tet_grain})
             (*constants)[kept] = (*constants)[e];
+        model.tet_axis[kept] = model.tet_axis[e];
         kept++;
     }
     model.cage.tets.resize(kept);
     model.cage.tet_organ.resize(kept);
     lone.tets.resize(kept);
-    for (std::vector<double>* constants : {&model.tet_density, &model.tet_young, &model.tet_poisson})
+    for (std::vector<double>* constants : {&model.tet_density, &model.tet_young, &model.tet_poisson, &model.tet_grain})
         constants->resize(kept);
+    model.tet_axis.resize(kept);
 }
 
 // Takes away tets that nothing holds or that swing on a hinge; their mass goes to the nodes to which they are attached.
@@ -127,6 +130,8 @@ LoneOrgan take_organ(const Model& plant, int organ, const Tree& tree) {
         lone.model.tet_density.push_back(plant.tet_density[e]);
         lone.model.tet_young.push_back(plant.tet_young[e]);
         lone.model.tet_poisson.push_back(plant.tet_poisson[e]);
+        lone.model.tet_grain.push_back(plant.tet_grain[e]);
+        lone.model.tet_axis.push_back(plant.tet_axis[e]);
     }
     std::map<int, std::vector<int>> shared;  // organ that grows out of it -> own nodes
     for (size_t i = 0; i < nodes.size(); i++) {

@@ -145,6 +145,7 @@ static void fit_to_order(const Model& model, int order) {
     shapes.known[row] = fitted.rest_shapes->known[row];
     shapes.positions[row] = fitted.rest_shapes->positions[row];
     shapes.quadratic_young = fitted.tet_young;
+    shapes.quadratic_grain = fitted.tet_grain;
 }
 
 void ensure_rest_shape(const Model& model, frond_mechanics which, int order) {

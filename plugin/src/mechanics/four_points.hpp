@@ -31,11 +31,16 @@ struct FourPoints {
         const auto at = [&](int i) FROND_INLINED {
             return gather<S>([&](int q) { return rest_inverse(elements, tet, q, 4).data()[i]; });
         };
+        const auto axis = [&](int r) FROND_INLINED {
+            return gather<S>([&](int q) { return elements.grain_axis[4 * tet + size_t(q)][r]; });
+        };
         const S volume = gather<S>([&](int q) { return elements.point_volume[4 * tet + size_t(q)]; });
         return {{{{at(0), at(3), at(6)}, {at(1), at(4), at(7)}, {at(2), at(5), at(8)}}},
                 volume,
                 of_tets(elements.lambda),
-                of_tets(elements.mu)};
+                of_tets(elements.mu),
+                {axis(0), axis(1), axis(2)},
+                of_tets(elements.grain)};
     }
     // Takes values at nodes; returns the differences from the first corner at each point, as columns.
     FROND_INLINE Lanes33<S> edges(const double* x) const {

@@ -43,7 +43,15 @@ struct FourTets {
         return {{{at(0), at(3), at(6)}, {at(1), at(4), at(7)}, {at(2), at(5), at(8)}}};
     }
     FROND_INLINE TetShareLanes<S> share() const {
-        return {at_rest(), of_tets(elements.volume), of_tets(elements.lambda), of_tets(elements.mu)};
+        const auto axis = [&](int r) FROND_INLINED {
+            return of_each([&](size_t e) { return elements.grain_axis[e][r]; });
+        };
+        return {at_rest(),
+                of_tets(elements.volume),
+                of_tets(elements.lambda),
+                of_tets(elements.mu),
+                {axis(0), axis(1), axis(2)},
+                of_tets(elements.grain)};
     }
     // Takes values at nodes; returns the differences from the first corner, as columns.
     FROND_INLINE Lanes33<S> edges(const double* x) const {

@@ -51,6 +51,10 @@ struct TetElements : Elements {
     std::vector<double> volume;        // volume of each tet [m^3]
     std::vector<double> point_volume;  // volume that each integration point stands for, with order 2 only [m^3]
     std::vector<double> lambda, mu;    // Lame's constants [Pa]
+    // Modulus of each tet's fibres over mu (mechanics/grain.hpp) [-], their direction in the modelled shape, and at rest
+    // at each integration point, by tets, points.
+    std::vector<double> grain;
+    std::vector<Vec3> grain_modelled, grain_axis;
     std::vector<double> density;       // [kg/m^3]
     std::vector<TetPlastic> plastic;   // by tets and points; empty unless the plant has yielded
     // E I length / reach^2 of each capsule's section, reach being the distance of its outermost fibre [J].

@@ -58,7 +58,7 @@ struct TetBatch {
     FROND_INLINE void take(size_t e, size_t place, WaitingBlocks<S>& waiting, S& inside_out) const {
         const TetOfSeveral<S> tet(elements, e);
         const TetShareLanes<S> share = tet.share();
-        const auto strain = Law::strain(tet.edges(x) * share.rest_inverse);
+        const auto strain = Law::strain(share, tet.edges(x) * share.rest_inverse);
         inside_out += select(Law::inverted(strain), constant<S>(1), S{});
         double damped = ahead.element_damping.empty() ? 0 : ahead.element_damping[e];
         damped += ahead.damping;

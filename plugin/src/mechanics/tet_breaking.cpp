@@ -23,7 +23,7 @@ double weighted_square(const TetElements& elements, size_t e, const VecX& x) {
     for (int q = 0; q < Element::POINTS; ++q) {
         const TetShare share = Element::share(elements, e, q);
         const double strain = green_strain(share, Element::gradient(share, places, q));
-        sum += young_of(share.lambda, share.mu) * share.volume * strain * strain;
+        sum += (young_of(share.lambda, share.mu) + share.grain * share.mu) * share.volume * strain * strain;
     }
     return sum;
 }
@@ -57,6 +57,9 @@ std::unique_ptr<Elements> without_tets(const Elements& body, const std::vector<u
     keep_others(own->volume, is_gone);
     keep_others(own->lambda, is_gone);
     keep_others(own->mu, is_gone);
+    keep_others(own->grain, is_gone);
+    keep_others(own->grain_modelled, is_gone);
+    keep_others(own->grain_axis, point_is_gone);
     keep_others(own->density, is_gone);
     keep_others(own->slots, is_gone);
     keep_others(own->quadratic_slots, is_gone);

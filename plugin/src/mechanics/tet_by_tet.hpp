@@ -56,8 +56,9 @@ struct TetByTet {
 // the volume V and the gradients b_a. With H_a = V P b_a, minus the force on corner a, and K the stiffness,
 //   df_a/dX_b = K_ab F - H_a b_b^T + H_b b_a^T.
 // A translation changes nothing, and forces add up to zero, which gives the blocks of corner 0.
-template <class Law, class Element>
+template <class Plain, class Element>
 void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<Mat3>& out) {
+    using Law = PointByPoint<WithoutGrain<Plain>>;
     const TetElements& elements = as_tets(body);
     out.assign(Element::NODES * Element::NODES, Mat3::Zero());
     const auto places = Element::places(elements, e, x);
@@ -75,7 +76,8 @@ void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<
         for (size_t a = 1; a < 4; ++a)
             for (size_t b = 1; b < 4; ++b) {
                 const Eigen::Index i = Eigen::Index(a) - 1, j = Eigen::Index(b) - 1;
-                const Mat3 block = K[i][j] * F - H.col(i) * B.row(j) + H.col(j) * B.row(i);
+                const Mat3 block = K[i][j] * F - H.col(i) * B.row(j) + H.col(j) * B.row(i) +
+                                   grain_rest_derivative<Plain>(share, F, B.row(i), B.row(j));
                 corners[4 * a + b] = block;
                 corners[4 * a] -= block;
                 corners[b] -= block;

@@ -14,6 +14,7 @@ namespace {
 
 struct Corotational {
     static constexpr bool GOES_AHEAD = true;
+    static constexpr bool TURNS = true;
 
     template <class S>
     struct Strain {

@@ -39,7 +39,14 @@ inline const TetElements& as_tets(const Elements& elements) {
 struct TetShare {
     const Mat3& rest_inverse;
     double volume, lambda, mu;
+    const Vec3& axis;  // of the fibres at rest
+    double grain;      // their modulus over mu [-]
 };
+
+// Returns the stretch of the fibres for a small gradient of displacements [-].
+inline double stretch_along(const TetShare& share, const Mat3& gradient) {
+    return share.axis.dot(gradient * share.axis);
+}
 
 // Returns Young's modulus by Lame's constants [Pa].
 inline double young_of(double lambda, double mu) {
@@ -61,7 +68,8 @@ struct LinearTet {
     using Places = Mat3;                         // edges from the first corner
 
     static TetShare share(const TetElements& elements, size_t e, int q = 0) {
-        return {rest_inverse(elements, e, q, POINTS), elements.volume[e], elements.lambda[e], elements.mu[e]};
+        return {rest_inverse(elements, e, q, POINTS), elements.volume[e], elements.lambda[e], elements.mu[e],
+                elements.grain_axis[e],                 elements.grain[e]};
     }
 
     static Places places(const TetElements& elements, size_t e, const VecX& x) {
@@ -100,8 +108,9 @@ struct QuadraticTetElement {
     };
 
     static TetShare share(const TetElements& elements, size_t e, int q) {
-        return {rest_inverse(elements, e, q, POINTS), elements.point_volume[POINTS * e + size_t(q)], elements.lambda[e],
-                elements.mu[e]};
+        const size_t at = POINTS * e + size_t(q);
+        return {rest_inverse(elements, e, q, POINTS), elements.point_volume[at], elements.lambda[e],
+                elements.mu[e],                       elements.grain_axis[at],   elements.grain[e]};
     }
 
     static Places places(const TetElements& elements, size_t e, const VecX& x) {

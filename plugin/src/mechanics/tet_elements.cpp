@@ -51,6 +51,7 @@ template <class Element>
 static void set_rest(TetElements& elements) {
     const size_t tet_count = elements.tets.size();
     elements.rest_inverse.resize(tet_count * Element::POINTS);
+    elements.grain_axis.resize(tet_count * Element::POINTS);
     elements.volume.assign(tet_count, 0);
     if (Element::POINTS > 1) elements.point_volume.resize(tet_count * Element::POINTS);
     for (size_t e = 0; e < tet_count; ++e) {
@@ -64,6 +65,8 @@ static void set_rest(TetElements& elements) {
             if (!(volume > 1e-12 * length * length * length) || !std::isfinite(volume))
                 fail(FROND_RESULT_BAD_GEOMETRY, "tet %zu has no volume at rest; remove it or move its nodes", e);
             elements.rest_inverse[at] = edges.inverse();
+            const Mat3 modelled = Element::edges(Element::places(elements, e, elements.modelled), q);
+            elements.grain_axis[at] = (edges * (modelled.inverse() * elements.grain_modelled[e])).normalized();
             elements.volume[e] += volume / Element::POINTS;
             if (Element::POINTS > 1) elements.point_volume[at] = volume / Element::POINTS;
         }
@@ -127,6 +130,10 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions, in
     out.nodes = make_tet_nodes(int(model.cage.nodes.size()), out.tets, order);
     out.node_count = out.nodes.count();
     out.modelled = node_places(out.nodes, [&](int i) { return model.cage.nodes[size_t(i)]; });
+    out.grain = model.grain_of(order);
+    out.grain_modelled = model.tet_axis;
+    out.grain.resize(out.tets.size(), 0);
+    out.grain_modelled.resize(out.tets.size(), Vec3::UnitX());
     // Ordering the nodes may mirror the tet, which does not change the deformation gradient.
     for (Tet& tet : out.ordered) std::sort(tet.begin(), tet.end());
     set_rest_positions(out, rest_positions ? *rest_positions : out.modelled);

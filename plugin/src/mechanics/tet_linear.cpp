@@ -9,6 +9,7 @@ namespace {
 
 struct Linear {
     static constexpr bool GOES_AHEAD = true;
+    static constexpr bool TURNS = false;
 
     template <class S>
     struct Strain {

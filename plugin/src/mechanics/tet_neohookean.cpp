@@ -112,6 +112,7 @@ FROND_INLINE void take_negative_part_out(Lanes33<S>& A) {
 
 struct Neohookean {
     static constexpr bool GOES_AHEAD = false;
+    static constexpr bool TURNS = true;
 
     template <class S>
     struct Strain {

@@ -26,7 +26,13 @@ struct TetOfSeveral {
         return {{{at(0), at(3), at(6)}, {at(1), at(4), at(7)}, {at(2), at(5), at(8)}}};
     }
     FROND_INLINE TetShareLanes<S> share() const {
-        return {at_rest(), of_tets(elements.volume), of_tets(elements.lambda), of_tets(elements.mu)};
+        const Vec3& axis = elements.grain_axis[tet];
+        return {at_rest(),
+                of_tets(elements.volume),
+                of_tets(elements.lambda),
+                of_tets(elements.mu),
+                {constant<S>(axis.x()), constant<S>(axis.y()), constant<S>(axis.z())},
+                of_tets(elements.grain)};
     }
     FROND_INLINE Lanes33<S> edges(const double* x) const {
         const auto corner = [&](size_t a) FROND_INLINED { return load3<S>(x, 3 * elements.ordered[tet][a]); };

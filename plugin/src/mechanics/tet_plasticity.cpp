@@ -50,7 +50,7 @@ std::vector<double> strain_in_cage(const Model& model, const TetElements& elemen
         const Section& section = model.sections[i];
         const double stiffer = model.organ_stiffer[size_t(std::max(model.chain.nodes[i].organ, 0))];
         if (model.chain.nodes[i].parent < 0) continue;
-        const double young = young_of(elements.lambda[e], elements.mu[e]);
+        const double young = young_of(elements.lambda[e], elements.mu[e]) + elements.grain[e] * elements.mu[e];
         share[e] = RIM * std::sqrt(stiffer * section.bending_thin() * section.length / (volume[i] * young)) /
                    (0.5 * section.thickness);
     }

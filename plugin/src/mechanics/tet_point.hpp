@@ -12,6 +12,8 @@ template <class S>
 struct TetShareLanes {
     Lanes33<S> rest_inverse;
     S volume, lambda, mu;
+    Lanes3<S> axis;
+    S grain;
 };
 
 // TetStiffness in lanes.
@@ -74,9 +76,10 @@ template <class Law>
 struct PointByPoint {
     using Strain = typename Law::template Strain<double>;
     static TetShareLanes<double> share_of(const TetShare& tet) {
-        return {one_lane(tet.rest_inverse), tet.volume, tet.lambda, tet.mu};
+        const Lanes3<double> axis = {tet.axis.x(), tet.axis.y(), tet.axis.z()};
+        return {one_lane(tet.rest_inverse), tet.volume, tet.lambda, tet.mu, axis, tet.grain};
     }
-    static Strain strain(const TetShare&, const Mat3& F) { return Law::strain(one_lane(F)); }
+    static Strain strain(const TetShare& tet, const Mat3& F) { return Law::strain(share_of(tet), one_lane(F)); }
     static double energy(const TetShare& tet, const Strain& s) { return Law::energy(share_of(tet), s); }
     static Mat3 stress(const TetShare& tet, const Strain& s) { return lane_of(Law::stress(share_of(tet), s), 0); }
     static TetStiffness stiffness(const TetShare& tet, const Strain& s, Tangent tangent, double scale) {

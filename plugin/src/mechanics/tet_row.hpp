@@ -8,6 +8,7 @@
 
 #include "mechanics/four_points.hpp"
 #include "mechanics/four_tets.hpp"
+#include "mechanics/grain.hpp"
 #include "mechanics/tet_batch.hpp"
 #include "mechanics/tet_by_tet.hpp"
 
@@ -36,7 +37,7 @@ struct TetPass {
         for (size_t first = 0; first < elements.tets.size(); first += Group::TETS) {
             const Group tets(elements, first);
             const TetShareLanes<S> share = tets.share();
-            const auto strain = Law::strain(tets.edges(x.data()) * share.rest_inverse);
+            const auto strain = Law::strain(share, tets.edges(x.data()) * share.rest_inverse);
             inverted += tets.count_tets(Law::inverted(strain));
             if (energy) *energy += tets.sum(share.volume * Law::energy(share, strain));
             if (!f && !K) continue;
@@ -117,8 +118,9 @@ struct TetRowInLanes {
     }
 };
 
-template <class Law>
+template <class Plain>
 Mechanics tet_row(const char* name, int order, bool needs_search) {
+    using Law = Grained<Plain>;
     Mechanics row;
     row.name = name;
     row.masses = tet_masses;
@@ -138,7 +140,7 @@ Mechanics tet_row(const char* name, int order, bool needs_search) {
         row.add_force_stiffness_and_damping = lanes.add_damped;
         if (Law::GOES_AHEAD) row.add_ahead = lanes.add_ahead;
         row.is_calm = tets_are_calm<Element>;
-        row.rest_derivative = rest_derivative<Points, Element>;
+        row.rest_derivative = rest_derivative<Plain, Element>;
         row.yields = tets_yield<Element>;
         row.flow = TetByTet<Points, Element>::flow;
     };
@@ -155,7 +157,7 @@ template <class Law>
 Mechanics batched_tet_row(const char* name, int order) {
     Mechanics row = tet_row<Law>(name, order, false);
     if (order == 2) return row;
-    static const BatchMechanics BATCH = {TetBatch<Law>::set_ahead, nullptr, tets_not_calm, tets_may_yield};
+    static const BatchMechanics BATCH = {TetBatch<Grained<Law>>::set_ahead, nullptr, tets_not_calm, tets_may_yield};
     row.batch = &BATCH;
     return row;
 }

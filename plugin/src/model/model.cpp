@@ -15,4 +15,8 @@ const std::vector<double>& Model::young_of(int order) const {
     return order == 2 && !rest_shapes->quadratic_young.empty() ? rest_shapes->quadratic_young : tet_young;
 }
 
+const std::vector<double>& Model::grain_of(int order) const {
+    return order == 2 && !rest_shapes->quadratic_young.empty() ? rest_shapes->quadratic_grain : tet_grain;
+}
+
 }  // namespace frond

@@ -32,6 +32,7 @@ struct RestShapes {
     Each<VecX> positions;                 // rest positions of nodes, node_count*3 [m]; empty: as modelled
     Each<std::vector<double>> stiffer;    // factor on Model::young_of(), one per tet [-]; empty: one
     std::vector<double> quadratic_young;  // like Model::tet_young, for order 2 [Pa]; empty: tet_young holds for both
+    std::vector<double> quadratic_grain;  // and like tet_grain
     std::vector<double> springs;  // factor on the material's stiffness for spring_chain, one per organ [-]; empty: one
 };
 
@@ -58,6 +59,10 @@ struct Model {
     std::vector<double> tet_density;  // densities of the cage's tets, so that each organ has its proper mass [kg/m^3]
     std::vector<double> tet_young;    // Young's moduli of the cage's tets, calibrated or the material's [Pa]
     std::vector<double> tet_poisson;
+    // Fibres along the organ that a calibrated cage has beside its tissue (mechanics/grain.hpp): modulus over the
+    // tissue's shear modulus [-], direction of length one.
+    std::vector<double> tet_grain;
+    std::vector<Vec3> tet_axis;
     std::vector<uint8_t> root;  // cage nodes that the ground holds unless a plant sets them otherwise, node_count
     std::shared_ptr<RestShapes> rest_shapes = std::make_shared<RestShapes>();
     double stiffening_factor = 1;  // factor by which the organs were stiffened so that the plant stands [-]
@@ -66,6 +71,7 @@ struct Model {
 
     double mass() const;                                   // [kg]
     const std::vector<double>& young_of(int order) const;  // moduli of the tets, as elements of an order [Pa]
+    const std::vector<double>& grain_of(int order) const;  // and their fibres'
 };
 
 }  // namespace frond

@@ -54,8 +54,8 @@ static void visit(Archive& a, Embedding& embedding) {
 }
 
 static void visit(Archive& a, RestShapes& shapes) {
-    auto& [mutex, known, positions, stiffer, quadratic_young, springs] = shapes;
-    a(known, positions, stiffer, quadratic_young, springs);
+    auto& [mutex, known, positions, stiffer, quadratic_young, quadratic_grain, springs] = shapes;
+    a(known, positions, stiffer, quadratic_young, quadratic_grain, springs);
 }
 
 static void visit(Archive& a, CageReport& report) {
@@ -90,11 +90,11 @@ static void visit(Archive& a, StemSource& source) {
 void visit(Archive& a, Model& model) {
     auto& [surface, topology, organs, chain, chain_view, sections, exact_sections, stem_source, chain_mass, organ_mass,
            organ_stiffer, calibrated, stands_as_modelled, capsules, organ_parents, cage, has_own_tets, embedding,
-           chain_embedding, tet_density, tet_young, tet_poisson, root, rest_shapes, stiffening_factor, cage_report,
+           chain_embedding, tet_density, tet_young, tet_poisson, tet_grain, tet_axis, root, rest_shapes, stiffening_factor, cage_report,
            ms_import, ms_cage, ms_chain, ms_total] = model;
     a(surface, topology, organs, chain, sections, exact_sections, stem_source, chain_mass, organ_mass, organ_stiffer,
       calibrated, stands_as_modelled, cage, has_own_tets, embedding, chain_embedding, tet_density, tet_young,
-      tet_poisson, root, *rest_shapes, stiffening_factor, cage_report);
+      tet_poisson, tet_grain, tet_axis, root, *rest_shapes, stiffening_factor, cage_report);
 }
 
 }  // namespace frond

@@ -27,7 +27,8 @@ std::vector<double> lack_of_organs(const Model& model, int order) {
     }
     for (size_t e = 0; e < model.cage.tets.size(); e++)
         cage[size_t(model.cage.tet_organ[e])] +=
-            model.young_of(order)[e] * std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
+            model.young_of(order)[e] * (1 + model.grain_of(order)[e] / (2 * (1 + model.tet_poisson[e]))) *
+            std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
     for (size_t i = 0; i < tissue.size(); i++) tissue[i] = tissue[i] > 0 ? 1 - cage[i] / tissue[i] : 0;
     return tissue;
 }
