@@ -158,6 +158,48 @@ TEST(Bond, HoldsAllOrgansOfOneBody) {
     frond_model_destroy(model);
 }
 
+// A heavy body that falls on a bond, wherever it is bonded, draws a cage out no more than its rods.
+TEST(Bond, DrawsOutACageAsItsRods) {
+    constexpr int STEPS = 30, EVERY = 9;     // capsules
+    constexpr double MASS = 5, MORE = 0.07;  // [kg], of a capsule's length [-]
+    const frond_model_def model_def = frond_default_model_def();
+    frond_model sunflower = {};
+    ASSERT_EQ(frond_model_load(FROND_SOURCE_DIR "/models/sunflower/sunflower.obj", &model_def, &sunflower), FROND_OK);
+    const auto capsules_of = [](frond_plant plant) {
+        std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
+        EXPECT_EQ(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())), FROND_OK);
+        return capsules;
+    };
+    // Returns the largest length of a capsule over its own, of the plant that a body hangs on at the end of one.
+    const auto drawn = [&](frond_mechanics mechanics, size_t at) {
+        const frond_world_def world_def = frond_default_world_def();
+        frond_world world = {};
+        EXPECT_EQ(frond_world_create(&world_def, &world), FROND_OK);
+        frond_plant_def def = frond_default_plant_def();
+        def.mechanics = mechanics;
+        def.effects = FROND_EFFECT_DEFAULT & ~uint32_t(FROND_EFFECT_RIGID_CONTACT);
+        frond_plant plant = {};
+        EXPECT_EQ(frond_plant_create(world, sunflower, &def, &plant), FROND_OK) << frond_last_error();
+        const std::vector<frond_capsule> before = capsules_of(plant);
+        frond_bond bond = {};
+        const frond_rigid body = add_body(world, MASS, before[at].end);
+        EXPECT_EQ(frond_bond_create(plant, before[at].end, body, &bond), FROND_OK) << frond_last_error();
+        step(world, STEPS);
+        const std::vector<frond_capsule> after = capsules_of(plant);
+        double most = 0;
+        for (size_t i = 0; i < before.size(); i++)
+            most = std::fmax(most, distance(after[i].begin, after[i].end) / distance(before[i].begin, before[i].end));
+        frond_world_destroy(world);
+        return most;
+    };
+    for (size_t at = 0; at < 120; at += EVERY) {
+        const double rods = drawn(FROND_MECHANICS_ROD, at);
+        for (const frond_mechanics cage : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN})
+            EXPECT_LT(drawn(cage, at), rods + MORE) << frond_mechanics_name(cage) << " at capsule " << at;
+    }
+    frond_model_destroy(sunflower);
+}
+
 TEST(Bond, LetsGoWhenEitherSideIsGone) {
     SmallWorld small;
     const frond_rigid body = add_body(small.world, 0, {0, 0.63, 0});

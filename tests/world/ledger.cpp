@@ -212,6 +212,35 @@ TEST(Ledger, AResetIsTheCallers) {
     }
 }
 
+// Restored into its sleep, a plant that had fallen is higher again: no step gave it that, nor took it when it wakes.
+TEST(Ledger, WhatIsRestoredIntoSleepIsTheCallers) {
+    frond_plant_def def = def_with(FROND_MECHANICS_ROD);
+    def.root_height = -1;
+    def.starts_asleep = true;
+    SmallWorld small(def, 1e7);
+    frond_wind_def wind = frond_default_wind_def();  // wakes it within a step
+    wind.velocity = {5, 0, 0};
+    ASSERT_EQ(frond_world_set_wind(small.world, &wind), FROND_OK);
+    std::vector<uint8_t> snapshot(frond_world_get_snapshot_size(small.world));
+    ASSERT_EQ(frond_world_save(small.world, snapshot.data(), snapshot.size()), FROND_OK) << frond_last_error();
+    const auto now = [&] {
+        Ledger ledger = {};
+        EXPECT_EQ(frond_world_get_energy_ledger(small.world, &ledger), FROND_OK) << frond_last_error();
+        return ledger;
+    };
+    const auto fall = [&] {
+        for (int i = 0; i < 20; i++) EXPECT_EQ(frond_world_step(small.world, 1.0 / 60), FROND_OK);
+    };
+    const Ledger begin = now();
+    fall();
+    const Ledger fallen = now();
+    ASSERT_EQ(frond_world_restore(small.world, snapshot.data(), snapshot.size()), FROND_OK) << frond_last_error();
+    fall();
+    const Ledger again = now();
+    EXPECT_NEAR(again.dissipated - fallen.dissipated, fallen.dissipated - begin.dissipated, 1e-6);
+    EXPECT_NEAR(again.calls, sum_of(begin.now) - sum_of(fallen.now), 1e-6);
+}
+
 // Plants that go alike are stepped together, but not under a ledger.
 TEST(Ledger, ChangesNoBits) {
     uint64_t hashes[2] = {};

@@ -41,7 +41,7 @@ const Row ROWS[] = {
     {"rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_POWER, 6, 0x12695d8569e73b26,
      0x66d3a1f9f913298d},
     {"neo_hookean", "wheat/wheat.obj", FROND_MECHANICS_TET_NEOHOOKEAN, 1, 0, false, FROND_WIND_PROFILE_LOG, 3,
-     0x81265ae4b3db7c82, 0x2d19b86786061e4c},
+     0x431603f35da8888e, 0x70241203dfb77fa8},
     {"twig", "urdf/sapling.urdf", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_LOG, 9, 0x28b0f534ecf3e7fc,
      0xccff5745ddabf1ac},
     {"ball_on_tets", "corn/corn.obj", FROND_MECHANICS_TET_COROTATIONAL, 1, 0, true, FROND_WIND_PROFILE_LOG, 0,

@@ -111,10 +111,11 @@ void Laws::check_finite(const Standing& plant) {
 }
 
 // A rooted plant is where its foot is. Another one may have gone as fast as anything could make it go. The linear law
-// knows no end of bending: a force carries a leaf any number of its lengths away.
+// knows no end of bending: a force, wind or a body carries a leaf any number of its lengths away.
 void Laws::check_places(const Standing& plant, const Loads& loads) {
     constexpr double REACH = 2, FAST = 30;  // [sizes], [m/s]
-    if (plant.def.mechanics == FROND_MECHANICS_TET_LINEAR && loads.force > 0) return;
+    const bool is_loaded = loads.force > 0 || loads.speed > 0 || loads.has_bodies;
+    if (plant.def.mechanics == FROND_MECHANICS_TET_LINEAR && is_loaded) return;
     const Places now = places_of(plant.handle);
     const bool is_rooted =
         plant.def.root_height >= 0 && !plant.is_changed && frond_plant_get_fragment_count(plant.handle) == 0;

@@ -9,10 +9,11 @@ namespace frond::programs {
 
 using tools::must;
 
-// Implicit Euler stops what sways.
+// Implicit Euler stops what sways. What is far would rest in other mechanics.
 static double settle(frond_world world, frond_plant plant, const std::function<void(double)>& step) {
     constexpr int STEPS = 240;
     const frond_effects holds = FROND_EFFECT_GRAVITY | FROND_EFFECT_DAMPING | FROND_EFFECT_FIBRES;
+    must(frond_world_set_detail(world, nullptr));
     must(frond_world_set_effects(world, holds));
     must(frond_plant_set_effects(plant, holds));
     must(frond_plant_set_integrator(plant, FROND_INTEGRATOR_IMPLICIT_EULER));

@@ -119,12 +119,16 @@ static void bend(frond_plant plant, double dx, double dy, double dz) {
 }
 )"},
                               {"blow", R"(
+static double within_5(double number) {
+    return number < -5 ? -5 : number > 5 ? 5 : number;
+}
+
 /* A wind that grows with height and turns about the origin. */
 static void blow(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user) {
     const double strength = *(const double*)user;
     (void)time;
     for (int i = 0; i < count; i++)
-        velocities[i].x += strength * points[i].y, velocities[i].z -= strength * points[i].x;
+        velocities[i].x += strength * within_5(points[i].y), velocities[i].z -= strength * within_5(points[i].x);
 }
 )"}};
 

@@ -82,11 +82,12 @@ void write_end_wind(Source& s, const Operation&) {
     s.line("frond_world_set_wind(world, NULL);");
 }
 
+// Worlds may be shifted by a hundred metres, where the wind would be no air's.
 void blow(const frond_vec3* points, int count, double, frond_vec3* velocities, void* user) {
     const double strength = *static_cast<const double*>(user);
     for (int i = 0; i < count; i++) {
-        velocities[i].x += strength * points[i].y;
-        velocities[i].z -= strength * points[i].x;
+        velocities[i].x += strength * std::clamp(double(points[i].y), -5.0, 5.0);
+        velocities[i].z -= strength * std::clamp(double(points[i].x), -5.0, 5.0);
     }
 }
 void set_field(Run& run, const Operation& o) {

@@ -13,7 +13,7 @@ frond_result frond_grab_create(frond_plant plant, frond_vec3 near_point, double 
         check_range(stiffness, 1e-9, 1e12, "stiffness [N/m]");
         Plant& p = awaken(body);
         const int vertex = nearest_vertex(p, to_vec(near_point));
-        p.input.grabs.push_back({vertex, grab_place(p, vertex), stiffness, 0});
+        p.input.grabs.push_back({vertex, pulled_place(p, vertex), stiffness, 0});
         Grab& grab = p.input.grabs.back();
         const auto handle = handle_for<frond_grab>(GrabEntry{&body, &grab}, [&] { p.input.grabs.pop_back(); });
         grab.handle = handle.id;
@@ -37,7 +37,7 @@ frond_result frond_grab_get(frond_grab grab, frond_vec3* held_point, frond_vec3*
             if (out) *out = {};
         const GrabEntry entry = get(grab);
         const Plant& plant = *look_at(*entry.body).plant;
-        if (held_point) *held_point = from_vec(grab_place(plant, entry.grab->vertex));
+        if (held_point) *held_point = from_vec(pulled_place(plant, entry.grab->vertex));
         if (target) *target = from_vec(entry.grab->target);
         if (force) *force = from_vec(grab_force(plant, *entry.grab));
     });

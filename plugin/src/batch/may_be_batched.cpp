@@ -23,9 +23,10 @@ bool goes_on(const Plant& plant, double h) {
 
 bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h) {
     return !plant.state.modal && !plant.state.own_elements && !plant.step.workspace && !plant.input.has_user_force &&
-           plant.input.grabs.empty() && !plant.input.supports && plant.state.fragments.empty() &&
-           plant.input.pin_springs.empty() && !plant.input.pins_changed && plant.state.recovers_for <= 0 &&
-           plant.input.max_substeps <= 1 && plant.state.fibre_give.empty() && h > 0 && h <= TRUSTED &&
+           plant.input.grabs.empty() && plant.step.bonded.empty() && !plant.input.supports &&
+           plant.state.fragments.empty() && plant.input.pin_springs.empty() && !plant.input.pins_changed &&
+           plant.state.recovers_for <= 0 && plant.input.max_substeps <= 1 && plant.state.fibre_give.empty() && h > 0 &&
+           h <= TRUSTED &&
            frond::may_be_batched(*plant.system, settings_for(plant, plant.input.effects & surroundings.effects), h) &&
            (!waits(plant) || can_be_taken_apart(*plant.system)) && foresee_method(plant, h);
 }

@@ -161,7 +161,7 @@ void add_row(Bond& bond, double h, std::vector<ContactRow>& rows) {
     Plant& plant = *bond.plant->plant;
     ContactRow row;
     row.plants[0] = bond.plant;
-    const Attachment attachment = vertex_attachment(plant, bond.vertex);
+    const Attachment attachment = pulled_at_vertex(plant, bond.vertex);
     if (!make_touch(plant, attachment, row.touches[0])) return;
     if (!bond.body->isStaticOrKinematicObject()) bond.body->activate();
     const Vec3 place = place_on_body(bond);

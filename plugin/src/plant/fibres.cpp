@@ -17,13 +17,18 @@ namespace {
 
 constexpr double SLACK = 0.03;  // stretch that is not resisted [-]
 
+// Returns the tensile stiffness of the capsule that ends at a chain node, EA as its rod has it [N].
+double tensile_stiffness(const Model& model, size_t node) {
+    return model.organ_stiffer[size_t(model.chain.nodes[node].organ)] * model.sections[node].stretching();
+}
+
 // Returns the share of each organ's tensile stiffness that its cage lacks [-].
 std::vector<double> lack_of_organs(const Model& model, int order) {
     std::vector<double> tissue(model.organs.size(), 0.0), cage(model.organs.size(), 0.0);
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
         if (node.parent >= 0 && node.organ >= 0)
-            tissue[size_t(node.organ)] += model.sections[i].stretching() * model.sections[i].length;
+            tissue[size_t(node.organ)] += tensile_stiffness(model, i) * model.sections[i].length;
     }
     for (size_t e = 0; e < model.cage.tets.size(); e++)
         cage[size_t(model.cage.tet_organ[e])] +=
@@ -86,7 +91,7 @@ Fibres make_fibres(const Model& model, const TetNodes& nodes, const VecX& modell
         fibres.of_node[i] = int(fibres.list.size());
         fibres.node.push_back(int(i));
         fibres.list.push_back({chain_place(node.parent), chain_place(int(i)), (1 + SLACK) * length,
-                               lack[size_t(node.organ)] * model.sections[i].stretching() / length});
+                               lack[size_t(node.organ)] * tensile_stiffness(model, i) / length});
     }
     if (fibres.list.empty()) return fibres;
     for (const int capsule : nearest_capsules(model, nodes, modelled)) {
@@ -112,6 +117,10 @@ static const Fibre* fibre_of_vertex(const Plant& plant, int vertex) {
     return node < 0 ? nullptr : fibre_that_holds(plant, plant.fibres->of_node[size_t(node)]);
 }
 
+bool is_on_fibre(const Plant& plant, int vertex) {
+    return fibre_of_vertex(plant, vertex) != nullptr;
+}
+
 Attachment pulled_at_node(const Plant& plant, int node) {
     if (plant.follow) return plant.follow->attachments[size_t(node)];
     if (fibre_of_node(plant, node)) return plant.fibres->axis_of_cage_node[size_t(node)];
@@ -128,8 +137,7 @@ Attachment pulled_at_vertex(const Plant& plant, int vertex) {
                  : vertex_attachment(plant, vertex);
 }
 
-// Calls `use` for ties of what grabs and forces pull to both ends of its capsule, as the cage would let that turn
-// aside.
+// Calls `use` for ties of what grabs and bonds pull to both ends of its capsule, as the cage would let that turn aside.
 template <class Use>
 static void for_each_tie(const Plant& plant, const Use& use) {
     const VecX& modelled = plant.nodes->modelled;
@@ -139,8 +147,11 @@ static void for_each_tie(const Plant& plant, const Use& use) {
             if (length > 0) use(Fibre{*end, pulled, (1 + SLACK) * length, fibre.stiffness});
         }
     };
-    for (const Grab& grab : plant.input.grabs)
-        if (const Fibre* fibre = fibre_of_vertex(plant, grab.vertex)) tie(*fibre, pulled_at_vertex(plant, grab.vertex));
+    const auto tie_vertex = [&](int vertex) {
+        if (const Fibre* fibre = fibre_of_vertex(plant, vertex)) tie(*fibre, pulled_at_vertex(plant, vertex));
+    };
+    for (const Grab& grab : plant.input.grabs) tie_vertex(grab.vertex);
+    for (const int vertex : plant.step.bonded) tie_vertex(vertex);
 }
 
 // Calls `use` for each fibre that has not broken off, with its length as it may have given, and for the ties.

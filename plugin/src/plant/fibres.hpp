@@ -29,7 +29,10 @@ Fibres make_fibres(const Model& model, const TetNodes& nodes, const VecX& modell
 Attachment pulled_at_node(const Plant& plant, int node);
 Attachment pulled_at_vertex(const Plant& plant, int vertex);
 
-// Returns the plant's fibres for a solve, and ties of grabbed vertices to both ends of their capsules.
+// Returns whether a fibre bears what pulls a vertex.
+bool is_on_fibre(const Plant& plant, int vertex);
+
+// Returns the plant's fibres for a solve, and ties of grabbed and bonded vertices to both ends of their capsules.
 std::unique_ptr<FibreLoads> fibres_of(const Plant& plant);
 // Looks what fibres store now.
 void look_at_fibres(Plant& plant);

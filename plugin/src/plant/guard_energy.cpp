@@ -86,8 +86,8 @@ bool keeps_course(Plant& plant, double h) {
     plant.step.is_off_course = ends_off_course(plant, h);
     const bool recovers = plant.state.recovers_for > 0;
     const bool is_asked = plant.step.is_off_course || plant.step.is_inexact || plant.step.starts_anew ||
-                          is_pushed(plant) || recovers || may_inflate(plant) || hold_several_places(plant) ||
-                          integrator(plant.step.settings.integrator).has_stages ||
+                          is_pushed(plant) || recovers || plant.report.inverted > 0 || may_inflate(plant) ||
+                          hold_several_places(plant) || integrator(plant.step.settings.integrator).has_stages ||
                           is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good) || leads_springs(plant);
     // Thousands of times the energy of a vibration leave no share of it to errors.
     const AllowedEnergy& allowed = recovers ? CONVERGED : OF_ONE_SOLVE;

@@ -159,6 +159,7 @@ struct PlantStep {
     std::unique_ptr<ContactPush> push;  // null until contacts are known
     double takes = 1;                   // share of pushes that its responses in this step take at most [-]
     std::unique_ptr<LoadWork> work;     // of an accepted step; null: nobody keeps account
+    std::vector<int> bonded;            // vertices on fibres that bonds hold
     bool is_watched = false;            // near something that it may go through
     bool is_among_bodies = false;       // something that it is not swept against may be in its way
     bool is_pressed = false;            // in contact with something that may move
@@ -312,7 +313,7 @@ Vec3 bound_point(const Plant& plant, const Embedding& embedding, size_t i, const
 Spring grab_spring(const Plant& plant, const Grab& grab);
 // Where a grab holds the plant [m], and its force on the plant [N]; world frame. That is the vertex in the mechanics,
 // not as it is drawn while a change of mechanics is blended out.
-Vec3 grab_place(const Plant& plant, int vertex);
+Vec3 pulled_place(const Plant& plant, int vertex);
 Vec3 grab_force(const Plant& plant, const Grab& grab);
 // Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave positions or velocities
 // unchanged.

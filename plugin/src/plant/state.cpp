@@ -25,13 +25,13 @@ Spring grab_spring(const Plant& plant, const Grab& grab) {
     return {pulled_at_vertex(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness};
 }
 
-Vec3 grab_place(const Plant& plant, int vertex) {
+Vec3 pulled_place(const Plant& plant, int vertex) {
     if (fragment_of_vertex(plant, size_t(vertex))) return vertex_position(plant, vertex);
     return plant.to_world(attachment_place(pulled_at_vertex(plant, vertex), plant.state.motion.x));
 }
 
 Vec3 grab_force(const Plant& plant, const Grab& grab) {
-    return grab.stiffness * (grab.target - grab_place(plant, grab.vertex));
+    return grab.stiffness * (grab.target - pulled_place(plant, grab.vertex));
 }
 
 // Returns whether the nodes that the ground holds are where it held them when the plant was made.

@@ -10,6 +10,7 @@
 #include "contact/find_plant_contacts.hpp"
 #include "core/lists.hpp"
 #include "core/timer.hpp"
+#include "plant/fibres.hpp"
 #include "step/report.hpp"
 
 namespace frond {
@@ -110,9 +111,15 @@ void mark_touched(World& world) {
                  [&](const PlantContact& c) { return sways(c.plants[0]) || sways(c.plants[1]) || !is_by_the_same(c); });
     for (PlantBody* body : world.awake) {
         body->plant->state.is_touched = body->plant->step.is_pressed = body->plant->state.is_entangled = false;
+        body->plant->step.bonded.clear();
         body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;
     }
     if (response_row(world.response).find) mark_pushed(world);
+    for (const Bond& bond : world.bonds) {
+        Plant& plant = *bond.plant->plant;
+        if (bond.body && !bond.plant->rest.asleep && is_on_fibre(plant, bond.vertex))
+            plant.step.bonded.push_back(bond.vertex);
+    }
     for (const SweptBody& swept : world.swept)
         for (PlantBody* body : swept.plants)
             if (!body->rest.asleep) body->plant->step.is_watched = body->level.is_due = true;

@@ -13,14 +13,14 @@ Bond& add_bond(World& world, PlantBody& plant, const Vec3& point, btCollisionObj
     bond.vertex = nearest_vertex(*plant.plant, point);
     bond.body = &body;
     bond.length = 1;
-    const Vec3 place = vertex_position(*plant.plant, bond.vertex);
+    const Vec3 place = pulled_place(*plant.plant, bond.vertex);
     bond.on_body = from_bullet(body.getWorldTransform().invXform(to_bullet(place)));
     world.bonds.push_back(bond);
     return world.bonds.back();
 }
 
 Vec3 held_place(const Bond& bond) {
-    return vertex_position(*look_at(*bond.plant).plant, bond.vertex);
+    return pulled_place(*look_at(*bond.plant).plant, bond.vertex);
 }
 
 Vec3 place_on_body(const Bond& bond) {

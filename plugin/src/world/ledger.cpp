@@ -64,6 +64,7 @@ void count_calls(World& world) {
         entry.is_there = true;
         if (is_new || !body->rest.asleep || body->is_looked_at)
             ledger.sums.calls += recount(world, look_at(*body), entry);
+        entry.is_asleep = body->rest.asleep;
         entry.fragments = body->plant->state.fragments.size();
     }
     for (auto it = ledger.plants.begin(); it != ledger.plants.end();) {
@@ -76,9 +77,10 @@ void begin_work(World& world) {
     for (PlantBody* body : world.awake) {
         Ledger::Entry& entry = world.ledger->plants[body->handle.id];
         const bool was_modal = entry.is_modal, is_modal = body->plant->state.modal != nullptr;
-        const bool has_changed = entry.system != body->plant->system || is_modal != was_modal;
+        const bool has_changed = entry.system != body->plant->system || is_modal != was_modal || entry.is_asleep;
         const double change = has_changed ? recount(world, *body, entry) : 0;
-        if (is_modal || was_modal) world.ledger->sums.calls += change;
+        if (is_modal || was_modal || entry.is_asleep) world.ledger->sums.calls += change;
+        entry.is_asleep = false;
         entry.x = body->plant->state.motion.x;
         body->plant->step.work = std::make_unique<LoadWork>();
     }

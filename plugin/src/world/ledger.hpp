@@ -20,6 +20,7 @@ struct Ledger {
         VecX x;                    // positions before the running step, model frame [m]
         size_t fragments = 0;
         bool is_modal = false;                 // does not count
+        bool is_asleep = false;                // may have been changed since it was counted
         std::shared_ptr<const System> system;  // of which `modelled` is the elastic energy in the modelled shape [J]
         double modelled = 0;
         bool is_there = false;  // scratch
