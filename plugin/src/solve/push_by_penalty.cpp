@@ -33,9 +33,7 @@ const ContactSpring& spring_of(std::vector<ContactSpring>& springs, const Touch&
 // Returns the velocity at which an infinitely stiff spring would part them; plants that overlap only stop, since
 // position correction parts them.
 double wanted_speed(const Touch& touch, double h) {
-    constexpr double FASTEST = 0.3;  // velocity at which a spring parts overlapping bodies [m/s]
-    return touch.least_correction == Touch::NO_CORRECTION ? std::min(touch.depth / h, FASTEST)
-                                                          : std::min(touch.depth, 0.0) / h;
+    return touch.least_correction == Touch::NO_CORRECTION ? touch.bias_velocity : std::min(touch.depth, 0.0) / h;
 }
 
 // Returns the impulse of one spring in place of `before`, with all others as they are.
