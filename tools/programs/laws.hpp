@@ -47,10 +47,11 @@ struct Standing {
     bool is_changed = false;   // it need not come home
 };
 
-// The greatest speed that operations gave anything, and the sums of forces and of their impulses.
+// The greatest speed that operations gave anything, the sums of forces and of their impulses, and the world's effects.
 struct Loads {
     double speed = 0, force = 0, impulse = 0;  // [m/s], [N], [N s]
     bool has_bodies = false;                   // something may press plants
+    frond_effects effects = FROND_EFFECT_ALL;
 };
 
 class Laws {

@@ -110,7 +110,8 @@ void write_gravity(Source& s, const Operation& o) {
 }
 
 void mask_effects(Run& run, const Operation& o) {
-    run.check(frond_world_set_effects(run.world, frond_effects(whole(o, "effects"))));
+    const frond_effects effects = frond_effects(whole(o, "effects"));
+    if (run.check(frond_world_set_effects(run.world, effects))) run.loads.effects = effects;
 }
 void write_mask(Source& s, const Operation& o) {
     s.line("frond_world_set_effects(world, %d);", whole(o, "effects"));
