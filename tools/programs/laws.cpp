@@ -114,7 +114,7 @@ void Laws::check_finite(const Standing& plant) {
 // knows no end of bending, and a cage without fibres stretches like rubber: a force, wind or a body carries their
 // leaves any number of lengths away.
 void Laws::check_places(const Standing& plant, const Loads& loads) {
-    constexpr double REACH = 2, FAST = 30;  // [sizes], [m/s]
+    constexpr double REACH = 2, FAST = 30;  // [spans], [m/s]
     const bool is_loaded = loads.force > 0 || loads.speed > 0 || loads.has_bodies;
     frond_plant_def def = {};
     must(frond_plant_get_def(plant.handle, &def));
@@ -125,7 +125,7 @@ void Laws::check_places(const Standing& plant, const Loads& loads) {
     const bool is_rooted =
         plant.def.root_height >= 0 && !plant.is_changed && frond_plant_get_fragment_count(plant.handle) == 0;
     const double fall = GRAVITY * time * time;
-    const double allowed = REACH * plant.size + plant.carried +
+    const double allowed = REACH * plant.span + plant.carried +
                            (is_rooted ? 0 : fall + (FAST + 3 * loads.speed + loads.impulse / plant.info.mass) * time);
     double most = 0;
     for (size_t i = 0; i < now.size(); i++) most = std::max(most, length(now[i] - plant.home[i]));

@@ -37,6 +37,7 @@ struct Standing {
     frond_plant_def def = {};
     frond_model_info info = {};
     double size = 0;              // diagonal of the modelled surface's box [m]
+    double span = 0;              // and of its nodes', some of which lie outside the surface [m]
     Places home;                  // its nodes as it was made [m]
     std::vector<double> lengths;  // of capsules as modelled [m]
     double strength = 0;          // least Young's modulus times area of an organ [N]
