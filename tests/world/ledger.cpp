@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 
+#include "frond/frond_snapshot.h"
 #include "support/stems.hpp"
 
 namespace {
