@@ -1,4 +1,5 @@
 // Operations on a world: making it, steps, wind, gravity, detail, snapshots.
+#include <algorithm>
 #include <cmath>
 
 #include "frond/frond_snapshot.h"
