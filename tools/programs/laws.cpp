@@ -111,21 +111,15 @@ void Laws::check_finite(const Standing& plant) {
 }
 
 // A rooted plant is where its foot is. Another one may have gone as fast as anything could make it go. The linear law
-// knows no end of bending, and a cage without fibres stretches like rubber: a force, wind or a body carries their
-// leaves any number of lengths away.
+// knows no end of bending: a force carries a leaf any number of its lengths away.
 void Laws::check_places(const Standing& plant, const Loads& loads) {
-    constexpr double REACH = 2, FAST = 30;  // [spans], [m/s]
-    const bool is_loaded = loads.force > 0 || loads.speed > 0 || loads.has_bodies;
-    frond_plant_def def = {};
-    must(frond_plant_get_def(plant.handle, &def));
-    const bool is_rubber = plant.def.mechanics == FROND_MECHANICS_TET_LINEAR ||
-                           (!moves_chain(plant) && !(def.effects & loads.effects & FROND_EFFECT_FIBRES));
-    if (is_rubber && is_loaded) return;
+    constexpr double REACH = 2, FAST = 30;  // [sizes], [m/s]
+    if (plant.def.mechanics == FROND_MECHANICS_TET_LINEAR && loads.force > 0) return;
     const Places now = places_of(plant.handle);
     const bool is_rooted =
         plant.def.root_height >= 0 && !plant.is_changed && frond_plant_get_fragment_count(plant.handle) == 0;
     const double fall = GRAVITY * time * time;
-    const double allowed = REACH * plant.span + plant.carried +
+    const double allowed = REACH * plant.size + plant.carried +
                            (is_rooted ? 0 : fall + (FAST + 3 * loads.speed + loads.impulse / plant.info.mass) * time);
     double most = 0;
     for (size_t i = 0; i < now.size(); i++) most = std::max(most, length(now[i] - plant.home[i]));

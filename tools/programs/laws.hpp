@@ -37,7 +37,6 @@ struct Standing {
     frond_plant_def def = {};
     frond_model_info info = {};
     double size = 0;              // diagonal of the modelled surface's box [m]
-    double span = 0;              // and of its nodes', some of which lie outside the surface [m]
     Places home;                  // its nodes as it was made [m]
     std::vector<double> lengths;  // of capsules as modelled [m]
     double strength = 0;          // least Young's modulus times area of an organ [N]
@@ -48,11 +47,10 @@ struct Standing {
     bool is_changed = false;   // it need not come home
 };
 
-// The greatest speed that operations gave anything, the sums of forces and of their impulses, and the world's effects.
+// The greatest speed that operations gave anything, and the sums of forces and of their impulses.
 struct Loads {
     double speed = 0, force = 0, impulse = 0;  // [m/s], [N], [N s]
     bool has_bodies = false;                   // something may press plants
-    frond_effects effects = FROND_EFFECT_ALL;
 };
 
 class Laws {

@@ -121,16 +121,6 @@ static double strength_of(frond_model model, const frond_model_info& info) {
     return least;
 }
 
-// Returns the diagonal of the box of places [m].
-static double diagonal_of(const Places& places) {
-    frond_vec3 low = places.front(), high = low;
-    for (const frond_vec3& p : places) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    return length(high - low);
-}
-
 void Run::add_plant(int id, int model, const frond_plant_def& def) {
     Standing plant;
     plant.model = models.at(model);
@@ -139,7 +129,6 @@ void Run::add_plant(int id, int model, const frond_plant_def& def) {
     must(frond_model_get_info(plant.model, &plant.info));
     plant.size = length(plant.info.upper - plant.info.lower);
     plant.home = places_of(plant.handle);
-    plant.span = diagonal_of(plant.home);
     std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant.handle)));
     must(frond_plant_get_capsules(plant.handle, capsules.data(), int(capsules.size())));
     for (const frond_capsule& capsule : capsules) plant.lengths.push_back(length(capsule.end - capsule.begin));

@@ -123,7 +123,7 @@ static double within_5(double number) {
     return number < -5 ? -5 : number > 5 ? 5 : number;
 }
 
-/* A wind that grows with height and turns about the origin. */
+/* A wind that grows with height and turns about the origin, the same from 5 m on. */
 static void blow(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user) {
     const double strength = *(const double*)user;
     (void)time;

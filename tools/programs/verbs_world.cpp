@@ -83,7 +83,7 @@ void write_end_wind(Source& s, const Operation&) {
     s.line("frond_world_set_wind(world, NULL);");
 }
 
-// Worlds may be shifted by a hundred metres, where the wind would be no air's.
+// Grows no farther than 5 m from the origin: worlds may be shifted by a hundred metres.
 void blow(const frond_vec3* points, int count, double, frond_vec3* velocities, void* user) {
     const double strength = *static_cast<const double*>(user);
     for (int i = 0; i < count; i++) {
@@ -111,8 +111,7 @@ void write_gravity(Source& s, const Operation& o) {
 }
 
 void mask_effects(Run& run, const Operation& o) {
-    const frond_effects effects = frond_effects(whole(o, "effects"));
-    if (run.check(frond_world_set_effects(run.world, effects))) run.loads.effects = effects;
+    run.check(frond_world_set_effects(run.world, frond_effects(whole(o, "effects"))));
 }
 void write_mask(Source& s, const Operation& o) {
     s.line("frond_world_set_effects(world, %d);", whole(o, "effects"));

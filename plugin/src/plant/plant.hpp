@@ -311,8 +311,8 @@ std::vector<Vec3> vertex_positions(const Plant& plant);
 Vec3 bound_point(const Plant& plant, const Embedding& embedding, size_t i, const VecX& x);
 // Spring that pulls at a grabbed vertex, as it is solved; the vertex is not on a fragment.
 Spring grab_spring(const Plant& plant, const Grab& grab);
-// Where a grab holds the plant [m], and its force on the plant [N]; world frame. That is the vertex in the mechanics,
-// not as it is drawn while a change of mechanics is blended out.
+// Where a grab or a bond holds the plant [m], and a grab's force on it [N]; world frame. That is the vertex in the
+// mechanics, not as it is drawn while a change of mechanics is blended out.
 Vec3 pulled_place(const Plant& plant, int vertex);
 Vec3 grab_force(const Plant& plant, const Grab& grab);
 // Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave positions or velocities

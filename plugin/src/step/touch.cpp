@@ -64,8 +64,12 @@ void mark_pushed(World& world) {
             body->plant->step.is_pressed |= contact.plants[0] != contact.plants[1];
             body->plant->state.is_entangled |= contact.depth > ENTANGLED;
         }
-    for (const Bond& bond : world.bonds)
-        bond.plant->plant->state.is_touched = bond.plant->plant->step.is_pressed = true;
+    for (const Bond& bond : world.bonds) {
+        Plant& plant = *bond.plant->plant;
+        plant.state.is_touched = plant.step.is_pressed = true;
+        if (bond.body && !bond.plant->rest.asleep && is_on_fibre(plant, bond.vertex))
+            plant.step.bonded.push_back(bond.vertex);
+    }
 }
 
 }  // namespace
@@ -115,11 +119,6 @@ void mark_touched(World& world) {
         body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;
     }
     if (response_row(world.response).find) mark_pushed(world);
-    for (const Bond& bond : world.bonds) {
-        Plant& plant = *bond.plant->plant;
-        if (bond.body && !bond.plant->rest.asleep && is_on_fibre(plant, bond.vertex))
-            plant.step.bonded.push_back(bond.vertex);
-    }
     for (const SweptBody& swept : world.swept)
         for (PlantBody* body : swept.plants)
             if (!body->rest.asleep) body->plant->step.is_watched = body->level.is_due = true;

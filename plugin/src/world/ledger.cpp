@@ -76,10 +76,11 @@ void count_calls(World& world) {
 void begin_work(World& world) {
     for (PlantBody* body : world.awake) {
         Ledger::Entry& entry = world.ledger->plants[body->handle.id];
-        const bool was_modal = entry.is_modal, is_modal = body->plant->state.modal != nullptr;
-        const bool has_changed = entry.system != body->plant->system || is_modal != was_modal || entry.is_asleep;
-        const double change = has_changed ? recount(world, *body, entry) : 0;
-        if (is_modal || was_modal || entry.is_asleep) world.ledger->sums.calls += change;
+        const bool is_the_callers = entry.is_modal || entry.is_asleep || body->plant->state.modal;
+        if (is_the_callers || entry.system != body->plant->system) {
+            const double change = recount(world, *body, entry);
+            if (is_the_callers) world.ledger->sums.calls += change;
+        }
         entry.is_asleep = false;
         entry.x = body->plant->state.motion.x;
         body->plant->step.work = std::make_unique<LoadWork>();
