@@ -33,6 +33,15 @@ TEST(Impulses, LetBodiesComeNearerAsFarAsThereIsRoom) {
     EXPECT_NEAR(impulses[0].y(), 2, 1e-9);
 }
 
+TEST(Impulses, PushNoMoreThanTheyMay) {
+    Touch weak = touch_of({0, -3, 0}, 0.5);
+    weak.most_push = 2;
+    weak.velocity.x() = 4;
+    std::vector<Vec3> impulses = {Vec3(0, 9, 0)};
+    EXPECT_TRUE(find_impulses({weak}, coupling_table(alone(1)), {}, impulses).converged);
+    EXPECT_NEAR((impulses[0] - Vec3(-1, 2, 0)).norm(), 0, 1e-9);
+}
+
 TEST(Impulses, HoldByFrictionUpToItsLimitAndAgainstTheSliding) {
     std::vector<Vec3> impulses;
     find_impulses({touch_of({0.4, -1, -0.3}, 0.6)}, coupling_table(alone(1)), {}, impulses);

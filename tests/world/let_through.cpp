@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "frond/frond_snapshot.h"
@@ -129,6 +130,50 @@ TEST(LetThrough, IsKeptBySnapshots) {
     crash.at = there;
     for (int i = 0; i < 10; i++) crash.drive(SPEED);
     EXPECT_EQ(crash.hash(), hash);
+}
+
+// A walker's round end comes over the foot of corn, which cannot give way there: what else touches the plant is not
+// pushed by as much in answer, and it stands as before afterwards.
+struct WalkedOver : testing::TestWithParam<double> {};
+std::string aside(const testing::TestParamInfo<double>& info) {
+    return "By" + std::to_string(int(1000 * info.param)) + "mm";
+}
+INSTANTIATE_TEST_SUITE_P(Lines, WalkedOver, testing::Values(0.0, 0.03, 0.08), aside);
+
+TEST_P(WalkedOver, TakesNoMoreThanItBearsAtItsFoot) {
+    constexpr double WALKS = 1.3, MOST = 60;  // [m/s], [N s]
+    Stand stand;
+    stand.load_corn();
+    frond_plant_def plant_def = stand.plant_def();
+    plant_def.mechanics = FROND_MECHANICS_ROD;
+    plant_def.effects &= ~FROND_EFFECT_PLASTICITY;
+    stand.add(plant_def, {0, 0, 0}, 0.7);
+    const frond_plant plant = stand.plants[0];
+    frond_vec3 tip = {}, after = {};
+    must(frond_plant_get_tip(plant, &tip));
+    frond_rigid_def def = frond_default_rigid_def();
+    def.shape = FROND_SHAPE_CAPSULE;
+    def.size = {0.25, 0.65, 0};
+    def.mass = 0;
+    def.state.position = {-1, 0.9, GetParam()};
+    frond_rigid walker = {};
+    must(frond_rigid_create(stand.world, &def, &walker));
+    double most = 0;
+    while (def.state.position.x < 2) {
+        def.state.position.x += WALKS * H;
+        must(frond_rigid_set_state(walker, &def.state));
+        stand.steps(1);
+        std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
+        must(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())));
+        for (const frond_contact& c : contacts)
+            most = std::max(most, std::hypot(c.impulse.x, c.impulse.y, c.impulse.z));
+    }
+    std::printf("at most %.3g N s in a contact\n", most);
+    EXPECT_GT(most, 0);
+    EXPECT_LT(most, MOST);
+    stand.steps(300);
+    must(frond_plant_get_tip(plant, &after));
+    EXPECT_NEAR(std::hypot(after.x - tip.x, after.y - tip.y, after.z - tip.z), 0, 0.05);
 }
 
 }  // namespace let_through_tests

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "contact/keep_apart.hpp"
 #include "core/assert.hpp"
 #include "world/world.hpp"
 
@@ -53,6 +54,20 @@ double mass_of(const PlantBody* body) {
     return node_mass_of(*body->plant->system).sum();
 }
 
+// Returns the largest push of a contact [N s]. What is led has any force, and a plant gives way to none where it is
+// held: pressed at its foot it took 1e6 N s, and whatever else touched it as much in answer. So a chain gets what
+// brings all of it to the speed at which the two part, and a multiple of what carries it and bends it by its size.
+// Cages get any: once they are bent their linear response is stiffer than they are, and their pushes are solved as
+// forces.
+double most_push(const Contact& contact, const Touch& touch, double h) {
+    constexpr double TIMES = 10;
+    const Plant& plant = *contact.plant->plant;
+    if (!plant.follow || !is_carried_on(contact)) return Touch::ANY_PUSH;
+    const double faster = std::max(0.0, touch.bias_velocity - touch.velocity.dot(contact.normal));
+    const double bending = squared(2 * PI * plant.sway) * double(plant.size);  // [m/s^2]
+    return mass_of(contact.plant) * (faster + TIMES * (GRAVITY + bending) * h);
+}
+
 // Adds the row of a contact with a body.
 void add_row(const World& world, Contact& contact, double h, std::vector<ContactRow>& rows) {
     Plant& plant = *contact.plant->plant;
@@ -72,6 +87,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     if (!contact.may_part) row.touch.bias_velocity = std::min(row.touch.bias_velocity, 0.0);
     if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
         row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);
+    row.touch.most_push = most_push(contact, row.touch, h);
     row.touch.bias_velocity += contact.shortfall.lacking / h;
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;

@@ -36,15 +36,14 @@ struct Shared {
 struct SharedSystem {
     std::shared_ptr<const System> system;
     double full_damping;  // see full_damping(); 0 if no organ has a damping ratio [s]
-    double rest_time;     // half a period of the slowest mode [s]
+    double sway;          // frequency of the slowest mode; 0: none [Hz]
     std::shared_ptr<WorkspacePool> pool;
 };
 
 // Returns half a period of the slowest mode, within limits that a game notices.
-static double rest_time_of(const std::shared_ptr<const Model>& model) {
+static double rest_time_of(double sway) {
     constexpr double LEAST = 0.5, MOST = 3;  // [s]
-    const double frequency = sway_frequency(model);
-    return frequency > 0 ? std::clamp(0.5 / frequency, LEAST, MOST) : MOST;
+    return sway > 0 ? std::clamp(0.5 / sway, LEAST, MOST) : MOST;
 }
 
 static std::shared_ptr<const SharedSystem> shared_system(const std::shared_ptr<const Model>& model,
@@ -52,7 +51,7 @@ static std::shared_ptr<const SharedSystem> shared_system(const std::shared_ptr<c
     static Shared<std::tuple<const Model*, frond_mechanics, frond_mass, int>, SharedSystem> systems;
     return systems.find_or_make({model.get(), which, mass, order}, [&] {
         ensure_rest_shape(*model, which, order);
-        SharedSystem shared = {make_system(model, which, mass, order), 0, rest_time_of(model),
+        SharedSystem shared = {make_system(model, which, mass, order), 0, sway_frequency(model),
                                std::make_shared<WorkspacePool>()};
         const std::vector<Organ>& organs = model->organs;
         if (std::any_of(organs.begin(), organs.end(), [](const Organ& o) { return o.material.damping_ratio > 0; }))
@@ -139,7 +138,8 @@ void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.seat.pool = std::shared_ptr<WorkspacePool>(shared, shared->pool.get());
     plant.seat.take();
     plant.input.settings.full_damping = plant.input.material_damping * shared->full_damping;
-    plant.rest_time = shared->rest_time;
+    plant.sway = shared->sway;
+    plant.rest_time = rest_time_of(shared->sway);
     plant.state.own_elements = nullptr;
     plant.follow = nullptr;
     plant.state.modal = nullptr;

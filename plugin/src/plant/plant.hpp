@@ -197,6 +197,7 @@ struct Plant {
     PoolSeat seat;                         // claim to a workspace of the system's pool
     frond_mechanics which;
     float size;        // diagonal of the modelled surface's box [m]
+    double sway;       // frequency of the slowest mode; 0: none [Hz]
     double rest_time;  // time of stillness after which the plant counts as at rest [s]
 
     Vec3 position;  // origin of the model's frame in the world [m]

@@ -89,7 +89,7 @@ Vec3 corrected(const Touch& touch, const Own& own, Vec3 velocity, const Vec3& be
     // Along the normal, push but never pull.
     const double push_before = before.dot(touch.normal);
     const double lacking = touch.bias_velocity - velocity.dot(touch.normal);
-    const double push = own.along > 0 ? std::max(0.0, push_before + own.along * lacking) : 0;
+    const double push = own.along > 0 ? std::clamp(push_before + own.along * lacking, 0.0, touch.most_push) : 0;
 
     // Tangentially, oppose the sliding that is left, as far as friction can.
     velocity += own.block * ((push - push_before) * touch.normal);
@@ -205,7 +205,7 @@ ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTab
             const Touch& touch = touches[size_t(island[k])];
             if (touch.is_bond) continue;
             const double push = impulse.dot(touch.normal);
-            impulse = in_cone(touch, std::max(0.0, push), impulse - push * touch.normal);
+            impulse = in_cone(touch, std::clamp(push, 0.0, touch.most_push), impulse - push * touch.normal);
         }
     }
     return report;

@@ -21,6 +21,8 @@ struct Touch {
     double least_correction = NO_CORRECTION;
     static constexpr double NO_CORRECTION = -1e30;  // left to velocities
     double most_correction = 1e30;                  // largest impulse of the position correction [N s]
+    static constexpr double ANY_PUSH = 1e30;
+    double most_push = ANY_PUSH;  // largest impulse along the normal [N s]
     // A bond holds in all directions, without normal, bias velocity and friction: a moves at `wanted` against b.
     bool is_bond = false;
     Vec3 wanted = Vec3::Zero();  // [m/s]
@@ -77,7 +79,8 @@ struct ImpulseReport {
 };
 
 // Finds the impulses [N s] for which, at every contact, either there is no impulse and the bodies part, or there is
-// one, they move at their bias velocity along the normal, and friction stops the sliding or opposes it at its limit.
+// one, they move at their bias velocity along the normal, if the largest push can do that, and friction stops the
+// sliding or opposes it at its limit.
 // The search begins with the given impulses, if there are any, and ends where a round changes no contact's velocity by
 // more than `unfelt` [m/s], or at its limits.
 ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTable& coupling,
