@@ -166,7 +166,7 @@ void Run::come_home() {
     at = program.operations.size();
     for (steps = 0; steps < int(CALM / DT);) step(DT);
     for (const auto& [id, plant] : plants)
-        if (Laws::may_come_home(plant)) Laws::expect_home(plant);
+        if (Laws::may_come_home(plant)) Laws::expect_home(plant, steps, DT);
 }
 
 Standing& plant_of(Run& run, const Operation& operation) {

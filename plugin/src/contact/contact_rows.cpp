@@ -34,9 +34,8 @@ double parting_speed(double depth, double slop, double h, double share, double f
 }
 
 // Overlaps with bodies are removed by velocities, as these have already moved: by so slow ones that nobody sees bodies
-// bounce that are deep in a stem after a fall, but faster from what is led, a kinematic body or a link with its motors.
-constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 0.1;  // [m], [-], [m/s]
-constexpr double FASTEST_LINK = 0.5, FASTEST_LED = 1;        // [m/s]
+// bounce that are deep in a stem after a fall, but faster from a kinematic body that is led.
+constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 0.1, FASTEST_LED = 1;  // [m], [-], [m/s]
 
 // Returns how fast sides that meet within the step must part by restitution; 0 below a speed at which nothing bounces.
 double rebound_speed(const Contact& contact, const Touch& touch, double h) {
@@ -80,10 +79,9 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
     // What a kinematic body has moved against in this step is to get out of its way at once.
     const double lag = contact.other->isKinematicObject() ? row.contact_body.velocity.norm() : 0;
-    row.touch.bias_velocity =
-        contact.gap >= 0 ? -contact.gap / h
-        : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST_LED + lag)
-                         : parting_speed(-contact.gap, SLOP, h, SHARE, row.contact_body.link ? FASTEST_LINK : FASTEST);
+    row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
+                              : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST_LED + lag)
+                                               : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
     if (!contact.may_part) row.touch.bias_velocity = std::min(row.touch.bias_velocity, 0.0);
     if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
         row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);
@@ -233,7 +231,7 @@ double way_on_of_link(double gap, double plant, double h) {
     // Half of what is free, as the response leaves the link room for its way in the step after.
     if (plant <= room) return 0.5 * (plant + room);
     if (plant <= room + slack) return plant;
-    return std::max((plant + SHARE * (room + slack)) / (1 + SHARE), plant - FASTEST_LINK);
+    return std::max((plant + SHARE * (room + slack)) / (1 + SHARE), plant - FASTEST);
 }
 
 Vec3 way_on_of_link(const Vec3& wanted, const Vec3& now, const Vec3& plant) {

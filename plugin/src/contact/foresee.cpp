@@ -56,7 +56,8 @@ void foresee(const World& world, const std::vector<ContactRow>& rows, double h) 
         if (row.contact) {
             const Vec3& normal = row.touch.normal;
             if (!(row.impulse->dot(normal) > 0)) continue;
-            const double along = normal.dot(plant), gap = row.contact->gap + h * normal.dot(now);
+            const double along = normal.dot(plant), now_apart = row.contact->gap + h * normal.dot(now),
+                         gap = row.contact->may_part ? now_apart : std::max(now_apart, 0.0);
             on += (way_on_of_link(gap, along, h) - along) * normal;
             row.foreseen->most_friction = row.touch.friction * row.impulse->dot(normal);
         } else {

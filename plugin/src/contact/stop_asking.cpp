@@ -47,13 +47,14 @@ bool parts(const Contact* contact) {
 }
 
 // Returns the work of contacts by parting from bodies, on plants and free bodies: what is held and overlaps something
-// that cannot move gets it whatever it takes [J]. Links have motors, and ghost objects are moved by their hosts.
+// that cannot move gets it whatever it takes [J]. Ghost objects are moved by their hosts.
 double work_of_parting(const ContactIsland& island, const std::vector<Vec3>& impulses, const CoupledRows& coupled) {
     const std::vector<ContactRow>& rows = coupled.rows();
     double work = 0;
     for (size_t i = 0; i < rows.size(); i++) {
         const ContactRow& row = rows[i];
-        if (row.plants[1] || row.touch.is_bond || !btRigidBody::upcast(row.contact_body.object)) continue;
+        if (row.plants[1] || row.touch.is_bond) continue;
+        if (!btRigidBody::upcast(row.contact_body.object) && !row.contact_body.link) continue;
         if (parts(island.with_bodies[row.number]))
             work += std::max(0.0, row.touch.bias_velocity) * impulses[i].dot(row.touch.normal);
     }
