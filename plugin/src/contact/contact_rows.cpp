@@ -82,7 +82,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
                               : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST_LED + lag)
                                                : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
-    if (!contact.may_part) row.touch.bias_velocity = std::min(row.touch.bias_velocity, 0.0);
+    if (row.touch.bias_velocity > 0) row.touch.bias_velocity *= contact.part_share;
     if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
         row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);
     row.touch.most_push = most_push(contact, row.touch, h);

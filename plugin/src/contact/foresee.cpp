@@ -57,7 +57,7 @@ void foresee(const World& world, const std::vector<ContactRow>& rows, double h) 
             const Vec3& normal = row.touch.normal;
             if (!(row.impulse->dot(normal) > 0)) continue;
             const double along = normal.dot(plant), now_apart = row.contact->gap + h * normal.dot(now),
-                         gap = row.contact->may_part ? now_apart : std::max(now_apart, 0.0);
+                         gap = now_apart < 0 ? row.contact->part_share * now_apart : now_apart;
             on += (way_on_of_link(gap, along, h) - along) * normal;
             row.foreseen->most_friction = row.touch.friction * row.impulse->dot(normal);
         } else {

@@ -43,7 +43,7 @@ bool parts(const Contact* contact) {
     const bool may_move =
         contact->other->isKinematicObject() &&
         !(btRigidBody::upcast(contact->other) && velocity_at(*contact->other, contact->on_other).isZero(0));
-    return contact->may_part && contact->gap < 0 && !may_move;
+    return contact->part_share > 0 && contact->gap < 0 && !may_move;
 }
 
 // Returns the work of contacts by parting from bodies, on plants and free bodies: what is held and overlaps something
@@ -77,18 +77,24 @@ std::array<double, 2> most_parting(const ContactIsland& island, double h) {
 }  // namespace
 
 bool stop_asking(const ContactIsland& island, const CoupledRows& coupled, const std::vector<Vec3>& impulses, double h) {
+    constexpr double SAFE = 0.7, LEAST = 0.01;  // of the speed that the work allows; share of it that is none [-]
     if (std::none_of(island.with_plants.begin(), island.with_plants.end(), [](auto* of) { return asks(of); }) &&
         std::none_of(island.with_bodies.begin(), island.with_bodies.end(),
                      [](auto* of) { return asks(of) || parts(of); }))
         return false;
     const auto [of_plants, of_all] = most_parting(island, h);
-    if (gain_by(impulses, coupled) <= of_plants && work_of_parting(island, impulses, coupled) <= of_all) return false;
+    const double work = work_of_parting(island, impulses, coupled);
+    const bool gives = gain_by(impulses, coupled) > of_plants;
+    if (!gives && work <= of_all) return false;
+    // What parts goes on as slowly as the work allows, or what motors press against a plant would sink in.
+    const double slower = gives ? 0 : SAFE * of_all / work;
     for (PlantContact* contact : island.with_plants) {
         contact->lacking = 0;
         contact->may_ask = false;
     }
     for (Contact* contact : island.with_bodies) {
-        if (parts(contact)) contact->may_part = false;
+        if (parts(contact))
+            contact->part_share = contact->part_share * slower > LEAST ? contact->part_share * slower : 0;
         if (!asks(contact)) continue;
         contact->shortfall.lacking = 0;
         contact->shortfall.may_ask = false;

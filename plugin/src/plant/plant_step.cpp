@@ -173,7 +173,7 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects) {
     if (!(effects & FROND_EFFECT_DAMPING))
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
-    if (hold_several_places(plant)) settings.newton_iterations = std::max(settings.newton_iterations, ENOUGH_SOLVES);
+    if (need_several_solves(plant)) settings.newton_iterations = std::max(settings.newton_iterations, ENOUGH_SOLVES);
     // Contacts add their response to the linear solution first.
     settings.is_touched = plant.state.is_touched;
     return settings;

@@ -116,6 +116,14 @@ bool hold_several_places(const Plant& plant) {
     return places > 1;
 }
 
+bool need_several_solves(const Plant& plant) {
+    const std::vector<Guide>& guides = guides_of(plant);
+    const bool turns_in_fork =
+        std::any_of(guides.begin(), guides.end(), [](const Guide& guide) { return !guide.is_hinge; });
+    return hold_several_places(plant) ||
+           (turns_in_fork && plant.input.settings.integrator == FROND_INTEGRATOR_IMPLICIT_EULER);
+}
+
 // A turn that the guide allows leaves it as it is: what a fork allows depends on where it was made.
 void carry_supports(Plant& plant) {
     constexpr double NEAR = 1e-9;  // [rad]

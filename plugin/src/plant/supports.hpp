@@ -40,6 +40,9 @@ void hold_supported(const std::vector<Support>& supports, Motion& motion);
 // Returns whether supports hold the plant at one of several places. What a solve gave is then no step that keeps each
 // segment's strain: rebuilt from one held node on, it misses the other, and the last segment takes all of that.
 bool hold_several_places(const Plant& plant);
+// Returns whether one solve a step is too few for how supports hold the plant: at several places, or in forks, whose
+// axes turn with what they hold, so that by implicit Euler, with the forces of the step's start, it gains energy.
+bool need_several_solves(const Plant& plant);
 // Lets supports hold their nodes where these have been put.
 void carry_supports(Plant& plant);
 // Drops the supports of what has come off.

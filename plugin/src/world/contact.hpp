@@ -38,7 +38,7 @@ struct Contact {
     Vec3 pushed_on = Vec3::Zero();  // velocity of the other body there, once it is pushed [m/s]
     double work = 0;                // of the body on the plant, once it is known [J]
     Foreseen foreseen;              // for the next step
-    bool may_part = true;           // from an overlap, as far as no energy comes from it
+    double part_share = 1;          // of its speed with which it parts from an overlap, so that no energy comes from it
     bool is_inside = false;         // the plant's point is on a segment's round end, within another one
 };
 
