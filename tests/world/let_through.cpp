@@ -1,5 +1,5 @@
-// A car-sized kinematic box that drives through corn: the plants are pushed, let it through before a step gets
-// expensive, and stand as before afterwards.
+// A car-sized kinematic box that drives through corn, and a walker that walks over it: the plants are pushed by no more
+// than they bear, let the car through before a step gets expensive, and stand as before afterwards.
 #include <gtest/gtest.h>
 
 #include <cmath>

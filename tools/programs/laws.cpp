@@ -242,13 +242,15 @@ bool leans(const Standing& plant) {
     return 1 - 2 * (q.x * q.x + q.z * q.z) < UPRIGHT;
 }
 
-// Returns where the plant's nodes come to rest that nothing ever touched.
+// Returns where the nodes of such a plant come to rest that is awake and that nothing ever touched.
 Places rest_of_untouched(const Standing& plant, int steps, double dt) {
-    frond_world_def def = frond_default_world_def();
+    frond_world_def world_def = frond_default_world_def();
+    frond_plant_def def = plant.def;
+    def.starts_asleep = false;
     frond_world world = {};
-    must(frond_world_create(&def, &world));
+    must(frond_world_create(&world_def, &world));
     frond_plant twin = {};
-    must(frond_plant_create(world, plant.model, &plant.def, &twin));
+    must(frond_plant_create(world, plant.model, &def, &twin));
     const Places made = places_of(twin);
     for (int i = 0; i < steps; i++) must(frond_world_step(world, dt));
     Places rest = places_of(twin);

@@ -59,9 +59,9 @@ public:
     void after_step(std::map<int, Standing>& plants, const Loads& loads, double dt);
     // Checks a change of mechanics, which must not add energy; `step` steps the world [s].
     void change_mechanics(Standing& plant, frond_mechanics to, const std::function<void(double)>& step);
+    static bool may_come_home(const Standing& plant);
     // Checks that a plant came home after that many steps of `dt` [s] without loads: to where it was made, or, if it
     // leans, to where an untouched one sags.
-    static bool may_come_home(const Standing& plant);
     static void expect_home(const Standing& plant, int steps, double dt);
 
 private:

@@ -40,12 +40,6 @@ struct SharedSystem {
     std::shared_ptr<WorkspacePool> pool;
 };
 
-// Returns half a period of the slowest mode, within limits that a game notices.
-static double rest_time_of(double sway) {
-    constexpr double LEAST = 0.5, MOST = 3;  // [s]
-    return sway > 0 ? std::clamp(0.5 / sway, LEAST, MOST) : MOST;
-}
-
 static std::shared_ptr<const SharedSystem> shared_system(const std::shared_ptr<const Model>& model,
                                                          frond_mechanics which, frond_mass mass, int order) {
     static Shared<std::tuple<const Model*, frond_mechanics, frond_mass, int>, SharedSystem> systems;
@@ -139,7 +133,6 @@ void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.seat.take();
     plant.input.settings.full_damping = plant.input.material_damping * shared->full_damping;
     plant.sway = shared->sway;
-    plant.rest_time = rest_time_of(shared->sway);
     plant.state.own_elements = nullptr;
     plant.follow = nullptr;
     plant.state.modal = nullptr;

@@ -49,12 +49,12 @@ bool is_lost(const Plant& plant) {
 void damp_recovering(const Plant& plant, SolveSettings& settings) {
     if (plant.state.recovers_for <= 0) return;
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
-    settings.mass_damping += 2 * PI / plant.rest_time;
+    settings.mass_damping += 2 * PI / rest_time(plant);
 }
 
 void watch_recovery(Plant& plant, double h) {
     constexpr float SWAYS = 1.5;  // duration of a recovery, in periods of the slowest mode [-]
-    const float sway = float(2 * plant.rest_time);
+    const float sway = float(2 * rest_time(plant));
     bool ends = false;
     if (plant.state.recovers_for > 0) {
         plant.trouble |= FROND_TROUBLE_RETRIED;

@@ -196,9 +196,8 @@ struct Plant {
     std::shared_ptr<const Fibres> fibres;  // null if none can pull
     PoolSeat seat;                         // claim to a workspace of the system's pool
     frond_mechanics which;
-    float size;        // diagonal of the modelled surface's box [m]
-    double sway;       // frequency of the slowest mode; 0: none [Hz]
-    double rest_time;  // time of stillness after which the plant counts as at rest [s]
+    float size;   // diagonal of the modelled surface's box [m]
+    double sway;  // frequency of the slowest mode; 0: none [Hz]
 
     Vec3 position;  // origin of the model's frame in the world [m]
     Quat rotation;
@@ -249,6 +248,8 @@ inline bool waits(const Plant& plant) {
 constexpr double WHIPS = 0.01;
 // Returns whether a solved plant went that far among bodies that it was not swept against.
 bool whips_among_bodies(const Plant& plant);
+// Returns the time of stillness after which the plant counts as at rest, half a period of its slowest mode [s].
+double rest_time(const Plant& plant);
 // Returns the push of a step's contacts, which are known from then on.
 ContactPush& push_of(Plant& plant);
 // Returns whether contacts push the plant in its step.

@@ -1,4 +1,6 @@
 // Reading and setting a plant's state: energy, nodes, the force of a grab.
+#include <algorithm>
+
 #include "core/assert.hpp"
 #include "plant/pins.hpp"
 #include "plant/seen.hpp"
@@ -17,6 +19,11 @@ frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
 
 double elastic_energy(const Plant& plant, const VecX& x) {
     return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x) + fibre_energy(plant, x);
+}
+
+double rest_time(const Plant& plant) {
+    constexpr double LEAST = 0.5, MOST = 3;  // limits that a game notices [s]
+    return plant.sway > 0 ? std::clamp(0.5 / plant.sway, LEAST, MOST) : MOST;
 }
 
 Spring grab_spring(const Plant& plant, const Grab& grab) {

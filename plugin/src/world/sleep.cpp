@@ -187,7 +187,7 @@ void put_to_sleep(World& world) {
     std::vector<uint8_t> stirs(count, 0), island_stirs(count, 0);
     for (size_t i = 0; i < count; i++) {
         const PlantBody& body = *world.taking_part[i];
-        stirs[i] = !body.rest.asleep && body.rest.still < body.plant->rest_time;
+        stirs[i] = !body.rest.asleep && body.rest.still < rest_time(*body.plant);
     }
     for (const Contact& contact : world.contacts)
         if (is_moving(*contact.other)) stirs[size_t(contact.plant->number)] = 1;
