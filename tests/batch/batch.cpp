@@ -11,6 +11,7 @@
 #include "core/lanes.hpp"
 #include "modelling/build.hpp"
 #include "plant/pins.hpp"
+#include "plant/plant_step.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"
 #include "support/soups.hpp"

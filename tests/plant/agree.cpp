@@ -10,7 +10,7 @@
 #include "calibration/static_stiffness.hpp"
 #include "calibration/sway.hpp"
 #include "modelling/build.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 #include "support/model_def.hpp"
 #include "support/sanitized.hpp"
 

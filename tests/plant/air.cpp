@@ -6,7 +6,7 @@
 
 #include "mechanics/rotation.hpp"
 #include "modelling/build.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 #include "solve/integrator.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"

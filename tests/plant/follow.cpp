@@ -6,6 +6,7 @@
 
 #include "modelling/build.hpp"
 #include "plant/pins.hpp"
+#include "plant/plant_step.hpp"
 #include "support/model_def.hpp"
 
 using namespace frond;

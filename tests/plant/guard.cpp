@@ -4,6 +4,7 @@
 #include <random>
 
 #include "plant/pins.hpp"
+#include "plant/plant_step.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"
 

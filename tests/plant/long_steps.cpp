@@ -1,7 +1,7 @@
 // Steps longer than the periods of hanging parts: fruits on thin peduncles come to rest where they hung.
 #include <gtest/gtest.h>
 
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"
 

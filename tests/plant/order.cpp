@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "modelling/build.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"
 

@@ -1,5 +1,5 @@
 // Everything that follows the cage: surface, normals and chain of one plant, without a world.
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "modelling/build.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 #include "support/materials.hpp"
 
 namespace frond::test {

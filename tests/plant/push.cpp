@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/rotation.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 #include "solve/integrator.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"

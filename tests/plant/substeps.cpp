@@ -5,6 +5,7 @@
 
 #include "modelling/build.hpp"
 #include "plant/pins.hpp"
+#include "plant/plant_step.hpp"
 #include "support/materials.hpp"
 
 namespace frond::test {

@@ -5,6 +5,7 @@
 
 #include "mechanics/attachment_lanes.hpp"
 #include "plant/air_push.hpp"
+#include "plant/plant_step.hpp"
 #include "plant/wind_lanes.hpp"
 #include "solve/system.hpp"
 

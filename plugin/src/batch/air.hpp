@@ -2,7 +2,7 @@
 #pragma once
 
 #include "batch/batch_step.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 
 namespace frond {
 

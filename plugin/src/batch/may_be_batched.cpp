@@ -3,6 +3,7 @@
 #include "batch/plants.hpp"
 #include "plant/guard.hpp"
 #include "plant/pins.hpp"
+#include "plant/plant_step.hpp"
 
 namespace frond {
 

@@ -15,6 +15,7 @@
 #include "mechanics/batch.hpp"
 #include "plant/fibres.hpp"
 #include "plant/guard.hpp"
+#include "plant/plant_step.hpp"
 #include "solve/system.hpp"
 
 namespace frond {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/lanes.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 
 namespace frond {
 

@@ -11,6 +11,7 @@
 
 #include "contact/coupled_rows.hpp"
 #include "core/assert.hpp"
+#include "plant/plant_step.hpp"
 #include "world/link_loads.hpp"
 
 namespace frond {

@@ -5,6 +5,7 @@
 
 #include "contact/keep_apart.hpp"
 #include "core/assert.hpp"
+#include "plant/plant_step.hpp"
 #include "world/world.hpp"
 
 namespace frond {

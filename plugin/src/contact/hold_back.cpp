@@ -10,6 +10,7 @@
 #include "contact/piece.hpp"
 #include "contact/strip_search.hpp"
 #include "core/union_find.hpp"
+#include "plant/plant_step.hpp"
 #include "world/convert.hpp"
 #include "world/trouble.hpp"
 

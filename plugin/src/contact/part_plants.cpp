@@ -8,6 +8,7 @@
 
 #include "contact/coupled_rows.hpp"
 #include "contact/keep_apart.hpp"
+#include "plant/plant_step.hpp"
 #include "solve/position_correction.hpp"
 #include "world/trouble.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "plant/plant_step.hpp"
 #include "world/trouble.hpp"
 
 namespace frond {

@@ -3,6 +3,7 @@
 
 #include "contact/contact_rows.hpp"
 #include "contact/touched_plant.hpp"
+#include "plant/plant_step.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

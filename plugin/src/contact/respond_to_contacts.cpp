@@ -17,6 +17,7 @@
 #include "contact/stop_asking.hpp"
 #include "contact/strip_search.hpp"
 #include "core/elementary.hpp"
+#include "plant/plant_step.hpp"
 #include "world/trouble.hpp"
 
 namespace frond {

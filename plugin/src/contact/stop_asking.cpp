@@ -6,6 +6,7 @@
 
 #include "contact/contact_body.hpp"
 #include "contact/keep_apart.hpp"
+#include "plant/plant_step.hpp"
 #include "world/world.hpp"
 
 namespace frond {

@@ -9,6 +9,7 @@
 #include "contact/keep_apart.hpp"
 #include "contact/piece.hpp"
 #include "contact/sweep.hpp"
+#include "plant/plant_step.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
 #include "world/show.hpp"

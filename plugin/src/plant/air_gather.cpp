@@ -5,7 +5,7 @@
 // the wind's force.
 #include "core/product.hpp"
 #include "plant/air_push.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 
 namespace frond {
 

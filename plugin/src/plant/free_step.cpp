@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "plant/load_work.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 #include "solve/workspace.hpp"
 
 namespace frond {

@@ -8,6 +8,7 @@
 #include "plant/guard.hpp"
 #include "plant/load_work.hpp"
 #include "plant/pins.hpp"
+#include "plant/plant_step.hpp"
 #include "solve/integrator.hpp"
 
 namespace frond {

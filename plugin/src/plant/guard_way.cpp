@@ -7,7 +7,7 @@
 #include "core/elementary.hpp"
 #include "core/lanes.hpp"
 #include "plant/guard.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 
 namespace frond {
 

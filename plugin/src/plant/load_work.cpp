@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "mechanics/rotation.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 #include "solve/drags.hpp"
 #include "solve/integrator.hpp"
 #include "solve/springs.hpp"

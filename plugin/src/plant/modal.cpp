@@ -11,6 +11,7 @@
 #include "core/assert.hpp"
 #include "core/elementary.hpp"
 #include "mechanics/rotation.hpp"
+#include "plant/plant_step.hpp"
 #include "plant/seen.hpp"
 
 namespace frond {

@@ -9,6 +9,7 @@
 
 #include "plant/guard.hpp"
 #include "plant/pins.hpp"
+#include "plant/plant_step.hpp"
 #include "plant/supports.hpp"
 
 namespace frond {

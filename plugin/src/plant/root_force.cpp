@@ -5,6 +5,7 @@
 
 #include "mechanics/rotation.hpp"
 #include "plant/pins.hpp"
+#include "plant/plant_step.hpp"
 #include "solve/guides.hpp"
 #include "solve/integrator.hpp"
 

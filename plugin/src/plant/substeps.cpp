@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/assert.hpp"
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 
 namespace frond {
 

@@ -1,6 +1,6 @@
 // A plant's step needs a workspace of some hundred kilobytes, and no part of it afterwards: plants of one system take
 // turns.
-#include "plant/plant.hpp"
+#include "plant/plant_step.hpp"
 
 #include "core/assert.hpp"
 

@@ -5,6 +5,7 @@
 #include "batch/plants.hpp"
 #include "core/assert.hpp"
 #include "core/timer.hpp"
+#include "plant/plant_step.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

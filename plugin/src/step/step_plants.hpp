@@ -1,6 +1,7 @@
 // Plants' own parts of a substep, alone and in batches, shared out into jobs.
 #pragma once
 
+#include "plant/plant_step.hpp"
 #include "world/world.hpp"
 
 namespace frond {

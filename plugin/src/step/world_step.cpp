@@ -9,6 +9,7 @@
 #include "contact/respond_to_contacts.hpp"
 #include "core/assert.hpp"
 #include "core/timer.hpp"
+#include "plant/plant_step.hpp"
 #include "step/report.hpp"
 #include "step/step_plants.hpp"
 #include "step/touch.hpp"
