@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# README, manual, glossary and headers agree: links lead somewhere, names of the API and the commands exist, examples have the
-# stated number of lines, and each figure names the command that measures it.
+# README, manual, glossary, headers and sources agree: links lead somewhere, names of the API and the commands exist, examples have
+# the stated number of lines, each figure names the command that measures it, and files are short.
 #   documents.sh SOURCE FROND COMPILER    FROND: the command; COMPILER: preprocesses C
 set -euo pipefail
 cd "$1"
@@ -39,6 +39,11 @@ done
 while IFS= read -r target; do
     [ -e "plugin/src/$target" ] || fail "$map: there is no $target"
 done < <(grep -oP '\]\(\K(?!http)[^)#]+' $map)
+
+# Files of the plugin are read at one sitting.
+while read -r lines file; do
+    [ "$lines" -le 350 ] || fail "$file has more than 350 lines"
+done < <(find plugin/src -name '*.[ch]pp' -exec wc -l {} + | grep -v ' total$')
 
 # Names of the API, as the preprocessor sees them; of the build, the environment and the tools.
 names=$(mktemp)
