@@ -29,6 +29,12 @@ void take_back(Waiting& waiting, PlantBody& body) {
 
 namespace {
 
+// Returns whether a row's other side is a rigid body that never moves, which can give no energy.
+bool stands_still(const ContactRow& row) {
+    return !row.plants[1] && !row.touch.is_bond && btRigidBody::upcast(row.contact_body.object) &&
+           row.contact_body.object->isStaticObject();
+}
+
 // Gathers the rows' impulses on the plants that `on` names by their places in the island.
 void gather_pushes(const std::vector<ContactRow>& rows, const std::vector<Vec3>& impulses,
                    const std::vector<uint8_t>& on) {
@@ -39,6 +45,8 @@ void gather_pushes(const std::vector<ContactRow>& rows, const std::vector<Vec3>&
             if (impulse.isZero(0) || !row.plants[k] || !on[size_t(row.plants[k]->place)]) continue;
             Plant& plant = *row.plants[k]->plant;
             add_impulse(plant, row.touches[k], k == 0 ? impulse : Vec3(-impulse), push_of(plant).impulse);
+            if (stands_still(row))
+                push_of(plant).asked_work += std::max(0.0, row.touch.bias_velocity) * impulse.dot(row.touch.normal);
         }
     }
 }

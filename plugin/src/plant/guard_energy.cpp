@@ -97,8 +97,8 @@ bool keeps_course(Plant& plant, double h) {
     const bool is_asked = plant.step.is_off_course || plant.step.is_inexact || plant.step.starts_anew ||
                           is_pushed(plant) || recovers || plant.report.inverted > 0 || may_inflate(plant) ||
                           hold_several_places(plant) || integrator(plant.step.settings.integrator).has_stages ||
-                          is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good) || leads_springs(plant) ||
-                          may_stiffen_by_turning(plant);
+                          is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good) ||
+                          leads_springs(plant) || may_stiffen_by_turning(plant);
     // Thousands of times the energy of a vibration leave no share of it to errors.
     const AllowedEnergy& allowed = recovers ? CONVERGED : OF_ONE_SOLVE;
     return !(is_asked && has_energy_from_nowhere(plant, allowed, h)) && !has_run_away(plant);

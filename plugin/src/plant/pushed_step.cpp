@@ -72,10 +72,14 @@ void add_contacts(Plant& plant, double h) {
     const bool has_impulse = push.impulse.size() > 0;
     if (has_impulse && respond(*plant.step.workspace, plant.input.settings, push.impulse, dv))
         add_response(*plant.step.workspace, dv, plant.state.motion);
-    // What is pushed goes along with what pushes it, as far as the response is linear.
-    if (has_impulse) push.most_work = std::max(0.0, push.impulse.dot(plant.state.motion.v));
+    // What is pushed goes along with what pushes it, as far as the response is linear; what stands gives nothing.
+    if (has_impulse) push.most_work = push.impulse.dot(plant.state.motion.v);
     retract_step(*plant.step.workspace, plant.state.motion);
-    if (has_impulse) push.most_work = std::min(push.most_work, std::max(0.0, push.impulse.dot(way_of_step(plant)) / h));
+    if (has_impulse) {
+        const double by_what_stands = std::max(0.0, push.asked_work - parting_work(plant, h));
+        const double on_way = push.impulse.dot(way_of_step(plant)) / h;
+        push.most_work = std::max(0.0, std::min(push.most_work, on_way) - by_what_stands);
+    }
     // Cages are not retracted: what turns in them is inflated.
     const bool is_bent =
         has_impulse && !plant.follow && !is_calm(*plant.system, plant.step.x_good, plant.state.motion.x);
