@@ -294,6 +294,9 @@ void solve_in_lanes(Plant* const* plants, int count, int lanes, const Surroundin
              whips;
     run_in_lanes(step.lanes,
                  LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course, whips});
+    const double asked_from = step.system->row->asked_from;
+    if (asked_from > 0)
+        off_course |= step.system->row->batch->not_calm(*step.system->elements, step.x, step.x_end, 1 / asked_from);
     whips &= find_lanes(plants, count, [](const Plant& plant) { return plant.step.is_among_bodies && !waits(plant); });
     alone |= far_away | whips;
     air_forces(step, space->forces);

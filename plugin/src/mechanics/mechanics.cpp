@@ -5,7 +5,7 @@
 
 namespace frond {
 
-static Mechanics rods(const char* name) {
+static Mechanics rods(const char* name, double asked_from) {
     Mechanics row;
     row.name = name;
     row.make = make_rods;
@@ -26,6 +26,7 @@ static Mechanics rods(const char* name) {
     row.section_strains = rod_section_strains;
     row.without = without_rods;
     row.moves_chain = true;
+    row.asked_from = asked_from;
     row.batch = &rod_batch();
     row.retract = retract_rods;
     return row;
@@ -34,7 +35,8 @@ static Mechanics rods(const char* name) {
 const Mechanics& mechanics(frond_mechanics which, int order) {
     using Rows = std::array<Mechanics, FROND_MECHANICS_COUNT>;
     const auto rows = [](int n) {
-        return Rows{tet_linear(n), tet_corotational(n), tet_neohookean(n), rods("rod"), rods("spring_chain")};
+        return Rows{tet_linear(n), tet_corotational(n), tet_neohookean(n), rods("rod", 0),
+                    rods("spring_chain", 1.0 / 3)};
     };
     static const std::array<Rows, HIGHEST_ORDER> TABLE = {rows(1), rows(2)};
     static_assert(FROND_MECHANICS_COUNT == 5, "every mechanics needs its row");

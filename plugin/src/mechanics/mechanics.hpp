@@ -147,6 +147,9 @@ struct Mechanics {
     std::unique_ptr<Elements> (*without)(const Elements& elements, const std::vector<uint8_t>& gone) = nullptr;
     // A single solve may blow up where tets are inverted, and has to be continued with a line search.
     bool needs_search = false;
+    // Share of the trust bound beyond which a step is asked for its energy even on its course: a straight way draws out
+    // what turns, which stiff elements take for strain [-]; 0: none is.
+    double asked_from = 0;
     // Nodes are pairs of a chain node's position and rotation, and the cage follows; else nodes are the cage's.
     bool moves_chain = false;
     // Rotations cause no strain; false for linear tets, which grow when they rotate far.

@@ -236,7 +236,9 @@ struct Neohookean {
 }  // namespace
 
 Mechanics tet_neohookean(int order) {
-    return tet_row<Neohookean>("tet_neohookean", order, true);
+    Mechanics row = tet_row<Neohookean>("tet_neohookean", order, true);
+    row.asked_from = 1.0 / 3;  // tension stiffens it
+    return row;
 }
 
 }  // namespace frond

@@ -83,12 +83,12 @@ bool may_inflate(const Plant& plant) {
     return is_implicit_euler || is_loose_cage(plant);
 }
 
-// Returns whether tets of a plant whose single solves may blow up turn far. A straight way draws out what turns, whose
-// stress then counts as tension: a twig of 2 mm that turned by 9 degrees ended with five times its energy.
-static bool may_stiffen_by_turning(const Plant& plant) {
-    constexpr double SHARE = 1.0 / 3;  // of the trust bound [-]
-    return plant.system->row->needs_search &&
-           !is_calm(*plant.system, plant.step.x_good, plant.step.x_good + 1 / SHARE * way_of_step(plant));
+// Returns whether elements turn so far that a step on its course may be wrong. A neo-Hookean twig of 2 mm that turned
+// by 9 degrees ended with five times its energy; springs of a leaf, a thousand times as stiff along it as its tissue,
+// with eight times.
+static bool turns_far(const Plant& plant) {
+    const double share = plant.system->row->asked_from;
+    return share > 0 && !is_calm(*plant.system, plant.step.x_good, plant.step.x_good + 1 / share * way_of_step(plant));
 }
 
 bool keeps_course(Plant& plant, double h) {
@@ -98,7 +98,7 @@ bool keeps_course(Plant& plant, double h) {
                           is_pushed(plant) || recovers || plant.report.inverted > 0 || may_inflate(plant) ||
                           hold_several_places(plant) || integrator(plant.step.settings.integrator).has_stages ||
                           is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good) ||
-                          leads_springs(plant) || may_stiffen_by_turning(plant);
+                          leads_springs(plant) || turns_far(plant);
     // Thousands of times the energy of a vibration leave no share of it to errors.
     const AllowedEnergy& allowed = recovers ? CONVERGED : OF_ONE_SOLVE;
     return !(is_asked && has_energy_from_nowhere(plant, allowed, h)) && !has_run_away(plant);
