@@ -18,7 +18,6 @@ static Mechanics rods(const char* name, double asked_from) {
     row.add_ahead = rod_add_ahead;
     row.rotary_inertia = rod_inertia;
     row.is_calm = rods_are_calm;
-    row.damped = damped_rods;
     row.yields = rods_yield;
     row.copy = copy_rods;
     row.flow = rods_flow;

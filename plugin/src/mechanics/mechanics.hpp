@@ -131,11 +131,6 @@ struct Mechanics {
     // Computes the derivative of a tet's forces on its n nodes by their rest positions [N/m]: of the force on a by the
     // position of b at [n a + b], nodes in the order of element_nodes(). Null where the rest shape is known without it.
     void (*rest_derivative)(const Elements& elements, size_t e, const VecX& x, std::vector<Mat3>& out) = nullptr;
-    // Copies elements so that they also resist what changes their strain from that at x within `step` [s], by
-    // damping[e] times their stiffness, of each or the same of all [s]: with the strain e, and e_x at x, by the energy
-    // 1/2 K (e^2 + damping / step (e - e_x)^2) but for a constant. Null: the damping matrix has to do.
-    std::unique_ptr<const Elements> (*damped)(const Elements& elements, const VecX& x,
-                                              const std::vector<double>& damping, double step) = nullptr;
     // Plasticity: returns whether an element is strained beyond its yield strain at x; needs `yields`.
     bool (*yields)(const Elements& elements, const VecX& x) = nullptr;
     // Copies the elements for a plant that has yielded.

@@ -33,8 +33,6 @@ int rod_add_damped(const Elements&, const VecX& x, const std::vector<double>& da
 int rod_add_ahead(const Elements&, const VecX& x, const Ahead&, VecX& f, BlockMatrix& A);
 void rod_inertia(const Elements&, const VecX& x, std::vector<Mat3>& out);
 bool rods_yield(const Elements&, const VecX& x);
-std::unique_ptr<const Elements> damped_rods(const Elements&, const VecX& x, const std::vector<double>& damping,
-                                            double step);
 std::unique_ptr<Elements> copy_rods(const Elements&);
 void rods_flow(Elements& own, const VecX& x, double h);
 std::vector<double> plastic_of_rods(const Elements& own);

@@ -7,8 +7,7 @@ namespace frond {
 
 bool step_implicit_euler(Workspace& workspace, const StepInput& input, SolveReport& report) {
     carry_held(workspace, input);
-    return solve_stage(workspace, input, {input.motion.x, input.motion.v, input.h, input.motion.x, nullptr, 0, true},
-                       report);
+    return solve_stage(workspace, input, {input.motion.x, input.motion.v, input.h, input.motion.x}, report);
 }
 
 bool takes_forces_ahead(const System& system, const SolveSettings& settings) {
@@ -20,7 +19,7 @@ bool step_euler_ahead(Workspace& workspace, const StepInput& input, SolveReport&
     if (!takes_forces_ahead(*workspace.system, input.settings)) return step_implicit_euler(workspace, input, report);
     carry_held(workspace, input);
     workspace.x_from = motion.x + input.h * motion.v;
-    return solve_stage(workspace, input, {motion.x, motion.v, input.h, workspace.x_from, nullptr, 0, true}, report);
+    return solve_stage(workspace, input, {motion.x, motion.v, input.h, workspace.x_from}, report);
 }
 
 }  // namespace frond

@@ -21,7 +21,6 @@ struct Stage {
     const VecX& x_from;             // positions at which the first solve evaluates forces and stiffness [m]
     const VecX* impulse = nullptr;  // [N s]
     int iterations = 0;             // Newton iterations at most; 0: as the settings say
-    bool by_mean = false;           // v is the mean velocity of the step, not that at its end
 };
 
 // Length beyond which a stage of rods is longer than the period of hanging parts [s].

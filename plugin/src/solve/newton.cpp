@@ -143,7 +143,6 @@ double skip_first(Newton& n) {
         n.most_work = most > 0 ? n.report.work + most : 0;
     }
     n.skipped = true;
-    if (!n.keep_damping) hold_damping(n);
     if (n.input.settings.from_rest || n.is_pulled) stand_still_if_better(n);
     const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
     n.report.ms_assembly += timer.lap();
@@ -231,29 +230,6 @@ bool is_long_stage(const System& system, double step) {
     return system.row->moves_chain && step > LONG_STAGE;
 }
 
-static bool solve(Newton& n) {
-    Workspace& w = n.w;
-    const SolveSettings& settings = n.input.settings;
-    w.v = w.v_start;
-    follow_guides(n, w.v);
-    w.reach = n.stage.step;
-    w.retract_from.resize(0);
-    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.exact && !settings.careful;
-    if (!n.at_once && (n.apart || n.iterations > 1 || n.exact || settings.careful)) hold_damping(n);
-    const bool converged_before = n.report.converged;
-    const double first = solve_first(n);
-    if (first < 0) return false;
-    if (n.iterations == 1 && n.input.loads.fibres && !meets_fibres(n, w.v_start)) {
-        n.for_fibres = true;
-        n.iterations = ENOUGH_SOLVES;
-        if (!n.keep_damping) hold_damping(n);
-    }
-    if (n.iterations > 1 && !iterate(n, first)) return false;
-    n.report.converged &= converged_before;
-    set_positions(n, w.v);
-    return true;
-}
-
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report) {
     const System& system = *workspace.system;
     const SolveSettings& settings = input.settings;
@@ -264,11 +240,26 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     n.is_pulled = system.row->moves_chain && input.loads.springs_are_far && n.iterations == 1;
     n.is_long = is_long_stage(system, stage.step) && n.iterations == 1;
     n.exact = n.is_long || n.is_pulled;
+    n.keep_damping =
+        n.apart || (n.rayleigh > 0 && (n.iterations > 1 || n.exact || n.body.needs_search || settings.careful));
+    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.exact && !settings.careful;
     if (settings.careful && settings.most_work > 0) n.most_work = report.work + settings.most_work;
-    const Elements* const elements = workspace.elements;
-    const bool ok = solve(n);
-    workspace.elements = elements;
-    return ok;
+    workspace.v = workspace.v_start;
+    follow_guides(n, workspace.v);
+    workspace.reach = stage.step;
+    workspace.retract_from.resize(0);
+    const bool converged_before = report.converged;
+    const double first = solve_first(n);
+    if (first < 0) return false;
+    if (n.iterations == 1 && input.loads.fibres && !meets_fibres(n, workspace.v_start)) {
+        n.for_fibres = true;
+        n.iterations = ENOUGH_SOLVES;
+        prepare_to_go_on(n);
+    }
+    if (n.iterations > 1 && !iterate(n, first)) return false;
+    report.converged &= converged_before;
+    set_positions(n, workspace.v);
+    return true;
 }
 
 }  // namespace frond

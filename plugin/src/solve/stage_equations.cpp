@@ -50,31 +50,13 @@ const VecX& linearized_from(const StageEquations& e) {
     return &e.stage.x_from == &start || is_calm(e.system, start, e.stage.x_from) ? e.stage.x_from : start;
 }
 
-static void form_damping(StageEquations& e) {
+// Adds force, positive stiffness, and damping that is not a multiple of that.
+static void assemble(StageEquations& e, const VecX& from) {
     Workspace& w = e.w;
-    const VecX& from = linearized_from(e);
-    w.damping.set_pattern(e.system.elements->pattern);
-    w.damping.set_zero();
-    if (!e.apart) return e.body.add_stiffness(*w.elements, from, Tangent::positive, 1, w.damping);
-    w.elastic.setZero(from.size());
-    w.A.set_zero();
-    e.body.add_force_stiffness_and_damping(*w.elements, from, w.element_damping, w.elastic, w.A, w.damping);
-}
-
-void hold_damping(StageEquations& e) {
-    e.at_once = false;
-    if (!e.apart && !(e.rayleigh > 0)) return;
-    // Contacts know a plant by its response to first order.
-    if (!e.stage.by_mean || e.input.settings.is_touched || !e.body.damped) {
-        e.keep_damping = true;
-        return form_damping(e);
-    }
-    std::vector<double> each = e.w.element_damping;
-    if (!e.apart) each.assign(1, e.rayleigh);
-    e.damped = e.body.damped(*e.w.elements, e.input.motion.x, each, e.stage.step);
-    e.w.elements = e.damped.get();
-    e.apart = false;
-    e.rayleigh = 0;
+    if (e.apart) w.damping.set_zero();
+    e.report.inverted = e.apart ? e.body.add_force_stiffness_and_damping(*w.elements, from, w.element_damping,
+                                                                         w.elastic, w.A, w.damping)
+                                : e.body.add_force_and_stiffness(*w.elements, from, Tangent::positive, w.elastic, w.A);
 }
 
 void linearize_at_start(StageEquations& e) {
@@ -90,9 +72,13 @@ void linearize_at_start(StageEquations& e) {
             w.elastic, w.A);
         return start_residual(e, w.v, w.rhs);
     }
-    const Tangent tangent = e.exact ? Tangent::exact : Tangent::positive;
-    e.report.inverted = e.body.add_force_and_stiffness(*w.elements, from, tangent, w.elastic, w.A);
-    const bool is_multiple = !e.keep_damping;  // the damping is a multiple of this stiffness
+    assemble(e, from);
+    const bool is_multiple = !e.apart && !e.exact;  // the damping is a multiple of this stiffness
+    if (!e.apart && (e.exact || e.keep_damping)) w.damping = w.A;
+    if (e.exact) {
+        w.A.set_zero();
+        e.body.add_stiffness(*w.elements, from, Tangent::exact, 1, w.A);
+    }
     if (is_multiple) w.dv += e.rayleigh * w.v;
     w.A.multiply(w.dv, w.product);
     start_residual(e, w.v, w.rhs);
@@ -100,6 +86,15 @@ void linearize_at_start(StageEquations& e) {
     if (is_multiple) return;
     w.damping.multiply(w.v, w.product);
     w.rhs -= e.stage.step * e.rayleigh * w.product;
+}
+
+void prepare_to_go_on(StageEquations& e) {
+    e.at_once = false;
+    if (!e.apart && !(e.rayleigh > 0)) return;
+    e.keep_damping = true;
+    e.w.A.set_zero();
+    assemble(e, linearized_from(e));
+    if (!e.apart) e.w.damping = e.w.A;
 }
 
 double residual_at(StageEquations& e, const VecX& v, VecX& rhs) {
@@ -156,7 +151,7 @@ void add_inertia(Workspace& w, double scale) {
 void form_matrix(StageEquations& e, bool first, Tangent tangent) {
     BlockMatrix& A = e.w.A;
     const double step = e.stage.step, mass = 1 + step * e.input.settings.mass_damping;
-    const bool alike = first && !e.keep_damping;
+    const bool alike = first && !e.apart && !e.exact;
     const double scale = step * step + (alike ? step * e.rayleigh : 0);
     if (!e.at_once)
         for (double& value : A.values) value *= scale;

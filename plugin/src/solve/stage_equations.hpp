@@ -2,10 +2,7 @@
 // the solution, and the matrix of a linear system for the next ones.
 //
 // D = mass_damping M + stiffness_damping K plus each element's own damping times its part of K, K being the positive
-// stiffness where the solve is linearized, so that it never adds energy. Implicit Euler's velocities are the mean ones
-// of a straight way, which such a matrix resists where the way turns: solved to the end, a rod lost all energy within a
-// second at 4 rad/s. So where there are several solves of that, and no contacts, rods damp by what their strain
-// changes, which a rotation does not.
+// stiffness at the start of the step: it never adds energy and does not resist rotation as a whole.
 #pragma once
 
 #include "solve/integrator.hpp"
@@ -25,8 +22,6 @@ struct StageEquations {
     bool keep_damping = false;  // the damping matrix is needed besides the stiffness
     bool exact = false;         // the first solve uses the exact stiffness, the damping still the positive one
     bool at_once = false;       // the mechanics assemble right-hand side and matrix of the only solve in one pass
-    std::unique_ptr<const Elements> damped =
-        nullptr;  // that damp by themselves, in place of the workspace's; null: none
 };
 
 // Sets w.x to the end of the stage with velocities v.
@@ -35,8 +30,8 @@ void set_positions(const StageEquations& equations, const VecX& v);
 const VecX& linearized_from(const StageEquations& equations);
 // Computes force and stiffness at those, extrapolated to the end of the stage with the velocities known so far.
 void linearize_at_start(StageEquations& equations);
-// Readies equations for several solves: by the damping matrix besides the stiffness, or by elements that damp.
-void hold_damping(StageEquations& equations);
+// Readies equations that were to be solved once for further solves: they need the damping.
+void prepare_to_go_on(StageEquations& equations);
 // Computes the residual at the end of the stage with velocities v and returns its norm.
 double residual_at(StageEquations& equations, const VecX& v, VecX& rhs);
 // Returns the stage's potential: minus its gradient by v is the residual.
