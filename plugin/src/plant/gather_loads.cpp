@@ -1,4 +1,5 @@
 // In: what the host asked for: forces, grabs, springs of pins. Out: the loads of a step, in the model's frame.
+#include "plant/chain_state.hpp"
 #include "plant/pins.hpp"
 #include "plant/plant_step.hpp"
 

@@ -4,7 +4,6 @@
 
 #include "core/assert.hpp"
 #include "core/timer.hpp"
-#include "plant/chain_state.hpp"
 #include "plant/guard.hpp"
 #include "plant/load_work.hpp"
 #include "plant/pins.hpp"

@@ -4,7 +4,7 @@
 #include "core/assert.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant_step.hpp"
-#include "solve/workspace.hpp"
+#include "solve/integrator.hpp"
 
 namespace frond {
 
