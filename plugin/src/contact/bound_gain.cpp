@@ -45,10 +45,9 @@ double share_of_body(const World& world, const std::vector<ContactRow>& rows, co
             second -= 0.5 * on_body.dot(compliance_between(at, rows[k].contact_body) * impulses[k]);
         const Plant& plant = *rows[i].plants[0]->plant;
         FROND_ASSERT(plant.step.push);
-        const Touch& touch = rows[i].touch;
         const Vec3 velocity = way_of_touch(plant, rows[i].touches[0]) / h;
-        taken += on_body.dot(velocity - touch.wanted);
-        parted -= std::max(0.0, touch.bias_velocity) * on_body.dot(touch.normal);
+        taken += on_body.dot(velocity - rows[i].touch.wanted);
+        parted += asked_work(rows[i], impulses[i]);
     }
     // A plant that is held back asks a heavy body in it for ever more.
     const btRigidBody* rigid = rows[body[0]].contact_body.rigid;

@@ -209,6 +209,10 @@ std::vector<ContactRow> make_rows(const World& world, const ContactIsland& islan
     return rows;
 }
 
+double asked_work(const ContactRow& row, const Vec3& impulse) {
+    return std::max(0.0, row.touch.bias_velocity) * impulse.dot(row.touch.normal);
+}
+
 std::vector<Foreseen::Part> parts_of(const ContactRow& row, const Vec3& impulse) {
     std::vector<Foreseen::Part> parts;
     const auto add = [&](Foreseen::Kind kind, const Vec3& of) {

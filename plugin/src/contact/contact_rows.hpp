@@ -29,6 +29,8 @@ inline bool is_movable(const ContactRow& row) {
     return !row.plants[1] && (row.contact_body.rigid || row.contact_body.link);
 }
 
+// Returns the work of a row's impulse along the velocity at which it asks both sides to part [J].
+double asked_work(const ContactRow& row, const Vec3& impulse);
 // Returns the parts of an impulse, without their work: along a row's normal and by friction, or of a bond.
 std::vector<Foreseen::Part> parts_of(const ContactRow& row, const Vec3& impulse);
 // Makes the rows of an island for a step of h [s]; wakes sleeping bodies that plants push.

@@ -45,8 +45,7 @@ void gather_pushes(const std::vector<ContactRow>& rows, const std::vector<Vec3>&
             if (impulse.isZero(0) || !row.plants[k] || !on[size_t(row.plants[k]->place)]) continue;
             Plant& plant = *row.plants[k]->plant;
             add_impulse(plant, row.touches[k], k == 0 ? impulse : Vec3(-impulse), push_of(plant).impulse);
-            if (stands_still(row))
-                push_of(plant).asked_work += std::max(0.0, row.touch.bias_velocity) * impulse.dot(row.touch.normal);
+            if (stands_still(row)) push_of(plant).asked_work += asked_work(row, impulse);
         }
     }
 }

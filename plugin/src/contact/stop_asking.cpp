@@ -56,8 +56,7 @@ double work_of_parting(const ContactIsland& island, const std::vector<Vec3>& imp
         const ContactRow& row = rows[i];
         if (row.plants[1] || row.touch.is_bond) continue;
         if (!btRigidBody::upcast(row.contact_body.object) && !row.contact_body.link) continue;
-        if (parts(island.with_bodies[row.number]))
-            work += std::max(0.0, row.touch.bias_velocity) * impulses[i].dot(row.touch.normal);
+        if (parts(island.with_bodies[row.number])) work += asked_work(row, impulses[i]);
     }
     return work;
 }

@@ -84,7 +84,7 @@ bool may_inflate(const Plant& plant) {
 }
 
 // Returns whether elements turn so far that a step on its course may be wrong. A neo-Hookean twig of 2 mm that turned
-// by 9 degrees ended with five times its energy; springs of a leaf, a thousand times as stiff along it as its tissue,
+// by 9 degrees ended with five times its energy; springs of a leaf, which are far stiffer along it than its tissue,
 // with eight times.
 static bool turns_far(const Plant& plant) {
     const double share = plant.system->row->asked_from;

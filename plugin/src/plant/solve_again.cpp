@@ -4,7 +4,6 @@
 #include "core/timer.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant_step.hpp"
-#include "plant/supports.hpp"
 #include "solve/integrator.hpp"
 
 namespace frond {
