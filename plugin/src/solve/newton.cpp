@@ -143,6 +143,8 @@ double skip_first(Newton& n) {
         n.most_work = most > 0 ? n.report.work + most : 0;
     }
     n.skipped = true;
+    retract(n, n.input.motion.x, n.w.v);
+    form_damping(n);
     if (n.input.settings.from_rest || n.is_pulled) stand_still_if_better(n);
     const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
     n.report.ms_assembly += timer.lap();
@@ -158,11 +160,10 @@ bool ends_calmly(Newton& n, double part) {
 // Does the first solve, the only one with one iteration. Returns the norm of its right-hand side, negative on failure.
 double solve_first(Newton& n) {
     Timer timer;
+    if (n.input.settings.careful) return skip_first(n);
     linearize_at_start(n);
-    if (n.input.settings.careful || (n.body.needs_search && n.report.inverted > 0)) {
-        n.report.ms_assembly += timer.lap();
-        return skip_first(n);
-    }
+    n.report.ms_assembly += timer.lap();
+    if (n.body.needs_search && n.report.inverted > 0) return skip_first(n);
     form_matrix(n, true, n.exact ? Tangent::exact : Tangent::positive);
     hold(n);
     const double norm = free_norm(n, n.w.rhs);
@@ -240,23 +241,24 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     n.is_pulled = system.row->moves_chain && input.loads.springs_are_far && n.iterations == 1;
     n.is_long = is_long_stage(system, stage.step) && n.iterations == 1;
     n.exact = n.is_long || n.is_pulled;
-    n.keep_damping =
-        n.apart || (n.rayleigh > 0 && (n.iterations > 1 || n.exact || n.body.needs_search || settings.careful));
-    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.exact && !settings.careful;
+    n.at_once = n.body.add_ahead && !n.exact && !settings.careful;
     if (settings.careful && settings.most_work > 0) n.most_work = report.work + settings.most_work;
     workspace.v = workspace.v_start;
     follow_guides(n, workspace.v);
     workspace.reach = stage.step;
     workspace.retract_from.resize(0);
+    if (n.exact) form_damping(n);
     const bool converged_before = report.converged;
     const double first = solve_first(n);
     if (first < 0) return false;
     if (n.iterations == 1 && input.loads.fibres && !meets_fibres(n, workspace.v_start)) {
         n.for_fibres = true;
         n.iterations = ENOUGH_SOLVES;
-        prepare_to_go_on(n);
     }
-    if (n.iterations > 1 && !iterate(n, first)) return false;
+    if (n.iterations > 1) {
+        if (!n.skipped) form_damping(n);
+        if (!iterate(n, first)) return false;
+    }
     report.converged &= converged_before;
     set_positions(n, workspace.v);
     return true;
