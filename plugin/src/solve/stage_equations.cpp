@@ -74,6 +74,7 @@ void form_damping(StageEquations& e) {
 void linearize_at_start(StageEquations& e) {
     Workspace& w = e.w;
     const VecX& from = linearized_from(e);
+    e.report.leaves_bound |= &from != &e.stage.x_from;
     w.elastic.setZero(from.size());
     w.A.set_zero();
     set_positions(e, w.v);
@@ -160,7 +161,7 @@ void form_matrix(StageEquations& e, bool first, Tangent tangent) {
     const double scale = step * step + (alike ? step * e.rayleigh : 0);
     if (!e.at_once)
         for (double& value : A.values) value *= scale;
-    if (!e.at_once && !alike && (e.apart || e.keep_damping))
+    if (!e.at_once && !alike && (first || e.keep_damping))
         for (size_t k = 0; k < A.values.size(); ++k) A.values[k] += step * e.rayleigh * e.w.damping.values[k];
     add_mass(e.system.masses, mass, A);
     add_inertia(e.w, mass);
