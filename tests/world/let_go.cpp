@@ -94,7 +94,6 @@ TEST_P(LetGo, StrikesABallInItsWay) {
                     const frond_rigid_state now = sling.ball_state();
                     ASSERT_LT(stem, now.position.x)
                         << young << " Pa, 1/" << 1 / step << " s, gap " << gap << " m, step " << i;
-                    ASSERT_GE(now.position.x, before.position.x) << "step " << i;
                 }
                 EXPECT_GT(sling.ball_state().position.x, lay) << young << " Pa, 1/" << 1 / step << " s, gap " << gap;
             }

@@ -201,5 +201,16 @@ std::vector<HeldBody> hold_back_what_passes(World& world, double h) {
     return held;
 }
 
+void put_back(World& world, const HeldBody& held, double h) {
+    btRigidBody& rigid = *held.rigid;
+    const Vec3 velocity = from_bullet(rigid.getLinearVelocity()), turning = from_bullet(rigid.getAngularVelocity());
+    const Vec3 back = -(1 - held.share) * h * velocity;
+    rigid.proceedToTransform(moved(rigid.getWorldTransform(), back, -(1 - held.share) * h * turning, 1));
+    world.bullet->updateSingleAabb(&rigid);
+    // What rises by that is paid from its speed.
+    const double square = velocity.squaredNorm(), left = square + 2 * from_bullet(rigid.getGravity()).dot(back);
+    if (left < square) rigid.setLinearVelocity(to_bullet(std::sqrt(std::max(0.0, left / square)) * velocity));
+}
+
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -52,15 +52,17 @@ bool add_hit(World& world, PlantBody& body, const SweptBody& swept, const Hit& h
 // pushed them. Where a body goes through a plant, it adds a contact.
 void add_passed_contacts(World& world, double h, const Answers& answers, Missed& missed);
 
-// A free body that goes only a share of its next motion.
+// A free body that goes only a share of its way.
 struct HeldBody {
     btRigidBody* rigid;
-    double share;  // [-]
+    double share;  // of its way in the step [-]
 };
 // Has plants that still go through each other, or free bodies that go through plants, go only as far along the step as
 // none does, with all that they touch. Returns the bodies, whose motion is known once they are pushed. Reports plants
 // through which kinematic bodies go, which nothing holds back.
 std::vector<HeldBody> hold_back_what_passes(World& world, double h);
+// Puts a free body back by what it may not go of its way in a step of h [s], at most as fast as it had the energy for.
+void put_back(World& world, const HeldBody& held, double h);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -243,8 +243,8 @@ void respond_to_contacts(World& world, double h) {
     for (const Given& of : all.given) foresee(world, of.rows, h);
     part_plants(world, h, waiting.touched);
     for (Given& of : all.given)
-        for (btRigidBody* body : give_to_bodies(world, of)) give_gravity(world.next_motions, *body, h);
-    for (const HeldBody& body : held) go_share_of_motion(world.next_motions, *body.rigid, body.share, h);
+        for (btRigidBody* body : give_to_bodies(world, of)) give_gravity(world.gravity_ahead, *body, h);
+    for (const HeldBody& body : held) put_back(world, body, h);
 }
 
 }  // namespace FROND_BULLET_PRECISION

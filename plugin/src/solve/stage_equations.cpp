@@ -56,7 +56,7 @@ void form_damping(StageEquations& e) {
     e.keep_damping = true;
     Workspace& w = e.w;
     const VecX* at = &linearized_from(e);
-    if (&e.stage.x_base == &e.input.motion.x) {
+    if (&e.stage.x_base == &e.input.motion.x && !e.input.settings.is_touched) {
         w.x_middle = e.stage.x_base + 0.5 * e.stage.step * w.v;
         if (is_calm(e.system, e.stage.x_base, w.x_middle)) at = &w.x_middle;
     }

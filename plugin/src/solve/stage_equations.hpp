@@ -5,7 +5,8 @@
 // stiffness, so that it never adds energy. It does not resist rotation as a whole where K is that of positions at which
 // the stage's velocities turn the plant: of a straight way from the step's start, that is the middle. At the start,
 // half of the step's turn behind, a rod that was solved to the end lost all energy within a second at 4 rad/s. A
-// stage's only solve takes the stiffness at hand, for one factor.
+// stage's only solve takes the stiffness at hand, for one factor. Where contacts follow, the damping stays that of the
+// start: with less of it corn made in each other was 6 mm deep after 2 s, and a stem went through a ball.
 #pragma once
 
 #include "solve/integrator.hpp"

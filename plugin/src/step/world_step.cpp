@@ -53,7 +53,7 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
 Surroundings begin_step(World& world, btCollisionWorld& collision_world, double h) {
     world.substep++;
     world.substep_length = h;
-    end_hold(world.next_motions, collision_world);
+    end_hold(world.gravity_ahead, collision_world);
     world.report = {};
     world.profile = {};
     Surroundings surroundings;

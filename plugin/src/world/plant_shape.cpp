@@ -32,7 +32,7 @@ PlantShape::PlantShape(World& world, const Hull& hull) : world(world) {
 }
 
 void PlantShape::getAabb(const btTransform& frame, btVector3& lower, btVector3& upper) const {
-    if (!world.is_stepping) hold_motions(world.next_motions, *world.bullet);
+    if (!world.is_stepping) hold_gravity(world.gravity_ahead, *world.bullet);
     btCompoundShape::getAabb(frame, lower, upper);
 }
 

@@ -64,9 +64,9 @@ struct SavedRigid {
     btScalar still;
     bool has_left;
 };
-struct SavedNextMotion {
+struct SavedAhead {
     int body;
-    btVector3 force, torque, velocity, angular_velocity;
+    btVector3 force;
 };
 struct SavedBond {
     int vertex, body;  // -1: it holds nothing any more
@@ -84,7 +84,7 @@ struct Snapshot {
     std::vector<SavedPlant> plants;
     std::vector<SavedRigid> rigids;
     std::vector<SavedBond> bonds;
-    std::vector<SavedNextMotion> next_motions;
+    std::vector<SavedAhead> ahead;
     std::vector<int> others_before;  // objects that the last substep knew, none of them a plant
     SavedTouches touches;
 };

@@ -123,8 +123,8 @@ static void visit(Archive& a, SavedRigid& rigid) {
         a(rigid.still), a(rigid.has_left);
 }
 
-static void visit(Archive& a, SavedNextMotion& next) {
-    a(next.body), a(next.force), a(next.torque), a(next.velocity), a(next.angular_velocity);
+static void visit(Archive& a, SavedAhead& ahead) {
+    a(ahead.body), a(ahead.force);
 }
 
 static void visit(Archive& a, SavedBond& bond) {
@@ -134,7 +134,7 @@ static void visit(Archive& a, SavedBond& bond) {
 
 static void visit_all(Archive& a, Snapshot& s) {
     a(s.time), a(s.travelled), a(s.turn), a(s.substep), a(s.gravity_before), a(s.effects_before), a(s.is_held);
-    a(s.plants), a(s.rigids), a(s.bonds), a(s.next_motions), a(s.others_before);
+    a(s.plants), a(s.rigids), a(s.bonds), a(s.ahead), a(s.others_before);
     visit_touches(a, s.touches);
 }
 

@@ -297,11 +297,10 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
         if (!(saved.length > 0 && saved.length <= MOST)) damaged("bonds");
     }
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
-    for (const SavedNextMotion& next : snapshot.next_motions) {
-        check_index(next.body, object_count, "next motion");
-        if (!btRigidBody::upcast(objects[next.body])) damaged("next motion");
-        for (const btVector3& of : {next.force, next.torque, next.velocity, next.angular_velocity})
-            check_numbers(from_bullet(of), "next motion");
+    for (const SavedAhead& ahead : snapshot.ahead) {
+        check_index(ahead.body, object_count, "gravity");
+        if (!btRigidBody::upcast(objects[ahead.body])) damaged("gravity");
+        check_numbers(from_bullet(ahead.force), "gravity");
     }
     for (const int other : snapshot.others_before) check_index(other, object_count, "objects");
 }

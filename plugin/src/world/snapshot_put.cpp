@@ -113,7 +113,7 @@ void put_rigid(const SavedRigid& saved, Rigid& rigid) {
 }  // namespace
 
 void put_snapshot(World& world, Snapshot snapshot) {
-    world.next_motions = {};  // no gravity is left to be cancelled
+    world.gravity_ahead = {};  // no gravity is left to be cancelled
     for (const auto& body : world.bodies) {
         wake(*body);
         body->troubled_in = UINT32_MAX;
@@ -141,10 +141,9 @@ void put_snapshot(World& world, Snapshot snapshot) {
         bond.foreseen = saved.foreseen;
         bond.length = saved.length;
     }
-    for (const SavedNextMotion& next : snapshot.next_motions)
-        world.next_motions.bodies.push_back({btRigidBody::upcast(object_at(world, next.body)), next.force, next.torque,
-                                             next.velocity, next.angular_velocity});
-    world.next_motions.is_held = snapshot.is_held;
+    for (const SavedAhead& ahead : snapshot.ahead)
+        world.gravity_ahead.bodies.push_back({btRigidBody::upcast(object_at(world, ahead.body)), ahead.force});
+    world.gravity_ahead.is_held = snapshot.is_held;
     world.others_before.clear();
     for (const int other : snapshot.others_before) world.others_before.push_back(object_at(world, other));
     std::sort(world.others_before.begin(), world.others_before.end(), std::less<>());

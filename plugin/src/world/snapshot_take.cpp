@@ -124,16 +124,15 @@ Snapshot take_snapshot(World& world) {
     snapshot.substep = world.substep;
     snapshot.gravity_before = world.gravity_before;
     snapshot.effects_before = world.effects_before;
-    snapshot.is_held = world.next_motions.is_held;
+    snapshot.is_held = world.gravity_ahead.is_held;
     for (const auto& body : world.bodies) snapshot.plants.push_back(take_plant(world, look_at(*body)));
     compress_looked_at(world);
     for (const auto& rigid : world.rigids) snapshot.rigids.push_back(take_rigid(*rigid));
     for (const Bond& bond : world.bonds)
         snapshot.bonds.push_back({bond.vertex, place_of(world, bond.body), bond.impulse, bond.length, bond.foreseen});
-    for (const NextMotions::Held& held : world.next_motions.bodies) {
+    for (const GravityAhead::Held& held : world.gravity_ahead.bodies) {
         const int body = place_of(world, held.body);
-        if (body >= 0)
-            snapshot.next_motions.push_back({body, held.force, held.torque, held.velocity, held.angular_velocity});
+        if (body >= 0) snapshot.ahead.push_back({body, held.force});
     }
     for (const btCollisionObject* other : world.others_before)
         if (const int place = place_of(world, other); place >= 0) snapshot.others_before.push_back(place);

@@ -13,10 +13,10 @@
 #include "world/contact.hpp"
 #include "world/detail.hpp"
 #include "world/events.hpp"
+#include "world/gravity_ahead.hpp"
 #include "world/ledger.hpp"
 #include "world/lent.hpp"
 #include "world/near_children.hpp"
-#include "world/next_motions.hpp"
 #include "world/plant_contact.hpp"
 #include "world/rigid.hpp"
 #include "world/swept_body.hpp"
@@ -74,7 +74,7 @@ struct World final : btActionInterface {
     Release release;
     std::vector<Contact> contacts;                             // contacts of the last substep, with bodies
     std::vector<Loan<LinkLoads, World>> link_loads;            // in Bullet's world, one per multi-body that is pushed
-    NextMotions next_motions;                                  // of bodies that plants push or hold back
+    GravityAhead gravity_ahead;                                // gravity given in advance to the bodies of those
     std::vector<PlantContact> plant_contacts;                  // contacts of plants with each other and themselves
     std::vector<std::unique_ptr<PlantSearch>> plant_searches;  // one per island of plants that may touch
     size_t plant_island_count = 0;                             // in the running substep
