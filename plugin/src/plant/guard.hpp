@@ -38,8 +38,9 @@ bool may_inflate(const Plant& plant);
 // Sets is_off_course after a solve over h [s] from x_good and v_good, and returns whether the plant may go there: it
 // did not run away, nor gain energy that the loads and contacts cannot have given. What stayed on its course is not
 // asked for its energy, unless pins or contacts push it, it starts anew, as with forces of the host, tets were inside
-// out, the step has stages, of which one need not damp what another strained, it may inflate the plant, or its substeps
-// were too long: in the last of them a node may become much faster and hardly go anywhere.
+// out, a cage was to leave the trust bound, the step has stages, of which one need not damp what another strained, it
+// may inflate the plant, or its substeps were too long: in the last of them a node may become much faster and hardly go
+// anywhere.
 bool keeps_course(Plant& plant, double h);
 // Returns whether no node ran away, and none left its course with energy that nothing can have given. A pressed plant
 // springs far in a solve without contacts, and its energy is meaningless there.

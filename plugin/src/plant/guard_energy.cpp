@@ -98,7 +98,7 @@ bool keeps_course(Plant& plant, double h) {
                           is_pushed(plant) || recovers || plant.report.inverted > 0 || may_inflate(plant) ||
                           hold_several_places(plant) || integrator(plant.step.settings.integrator).has_stages ||
                           is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good) ||
-                          leads_springs(plant) || turns_far(plant);
+                          leads_springs(plant) || turns_far(plant) || (plant.report.leaves_bound && !plant.follow);
     // Thousands of times the energy of a vibration leave no share of it to errors.
     const AllowedEnergy& allowed = recovers ? CONVERGED : OF_ONE_SOLVE;
     return !(is_asked && has_energy_from_nowhere(plant, allowed, h)) && !has_run_away(plant);

@@ -80,7 +80,8 @@ void solve_again(Plant& plant, double h) {
     const bool from_rest = !plant.state.is_entangled;
     const bool was_solved = plant.report.ok;
     const VecX x_once = plant.state.motion.x, v_once = plant.state.motion.v;
-    if (!plant.state.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
+    const bool has_own = own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start;
+    if (has_own && !plant.state.is_touched && !plant.report.is_sudden) {
         minimise(plant, own, h, from_rest);
         if (plant.report.ok && is_plausible(plant, h)) return;
     }

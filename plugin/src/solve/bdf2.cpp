@@ -23,6 +23,7 @@ static bool step_first(Workspace& w, const StepInput& input, SolveReport& report
     if (!motion.history.shaken && is_calm(*w.system, motion.x, w.x_from) && step_sdirk2(w, input, report) &&
         is_calm(*w.system, motion.x, w.x) && is_smooth(w, input) && report.inverted == 0)
         return true;
+    report.is_sudden = !motion.history.shaken;
     return step_euler_ahead(w, input, report);
 }
 

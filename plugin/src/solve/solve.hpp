@@ -128,8 +128,10 @@ struct SolveCost {
 struct SolveReport : SolveCost {
     bool ok = false;  // false: the system could not be solved; motion is unchanged
     bool converged = true;
-    int inverted = 0;     // number of inverted tets
-    double residual = 0;  // relative, of the last linear solve
+    bool is_sudden = false;  // a first step of bdf2 that was too sudden for any but implicit Euler: so is the next one
+    bool leaves_bound = false;  // a stage was linearized at its start, its prediction being outside the trust bound
+    int inverted = 0;           // number of inverted tets
+    double residual = 0;        // relative, of the last linear solve
 };
 
 // Scratch space of one plant: matrix values, factor, vectors. Kept from step to step.

@@ -177,7 +177,7 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     if (!take_step(workspace, input, method, report, keeps)) return report;
     finish_pins(workspace, motion);
     if (!are_finite(workspace.x) || !are_finite(workspace.v)) return report;
-    keep_history(workspace, input, keeps, motion);
+    keep_history(workspace, input, keeps && !report.is_sudden, motion);
     motion.x = workspace.x;
     motion.v = workspace.v;
     FROND_ASSERT(are_finite(motion.x) && are_finite(motion.v));

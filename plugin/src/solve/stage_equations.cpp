@@ -62,6 +62,7 @@ static void assemble(StageEquations& e, const VecX& from) {
 void linearize_at_start(StageEquations& e) {
     Workspace& w = e.w;
     const VecX& from = linearized_from(e);
+    e.report.leaves_bound |= &from != &e.stage.x_from;
     w.elastic.setZero(from.size());
     w.A.set_zero();
     set_positions(e, w.v);
