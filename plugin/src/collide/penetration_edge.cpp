@@ -177,23 +177,27 @@ static bool find_ridge_above(const OverlapSearch& search, const BodyPair& pair, 
     return found;
 }
 
-// Chooses an exit where no neighbour has one: on the side of the faces passed through, else against a's own outside.
+// Chooses an exit where no neighbour has one: above the ridge of the two planes that the chord passes through, else
+// against a's own outside by half of the length inside.
 static void leave_anyhow(const OverlapSearch& search, const BodyPair& pair, const Chord& chord, WayOut& way) {
     const OverlapScene& scene = search.scene;
-    const auto normal_at = [&](int overlap) {
-        return face_normal(scene, pair.b, scene.face[size_t(search.edges[size_t(overlap)].face)]);
-    };
-    Vec3 normal = normal_at(chord.first) + normal_at(chord.last);
-    if (!(normal.norm() > 0.2)) {
+    const EdgeOverlap &first = search.edges[size_t(chord.first)], &last = search.edges[size_t(chord.last)];
+    const Vec3 n = face_normal(scene, pair.b, scene.face[size_t(first.face)]);
+    const Vec3 m = face_normal(scene, pair.b, scene.face[size_t(last.face)]);
+    const Vec3 inside =
+        edge_place(scene, pair.a, chord.edge, last.along) - edge_place(scene, pair.a, chord.edge, first.along);
+    // Depths of its ends below the plane of the other end: an edge that hardly dips in may be inside for long.
+    const double first_below = m.dot(inside), last_below = -n.dot(inside);
+    Vec3 normal = n + m;
+    if (normal.norm() > 0.2 && first_below > 0 && last_below > 0) {
+        way.depth = first_below * last_below / (first_below + last_below) / n.dot(normal.normalized());
+    } else {
         const auto& faces = scene.bodies[size_t(pair.a)].collider->edge_faces[size_t(chord.edge)];
         normal = -face_normal(scene, pair.a, faces[0]) - face_normal(scene, pair.a, faces[1]);
+        way.depth = 0.5 * inside.norm();
     }
     if (!(normal.norm() > 1e-6)) return;
-    // Half of the length inside.
     way.normal = normal.normalized();
-    way.depth = 0.5 * (edge_place(scene, pair.a, chord.edge, search.edges[size_t(chord.last)].along) -
-                       edge_place(scene, pair.a, chord.edge, search.edges[size_t(chord.first)].along))
-                          .norm();
     way.known = true;
 }
 

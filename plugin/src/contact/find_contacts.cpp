@@ -97,18 +97,19 @@ void add_contact(PlantBody& body, int capsule, btCollisionObject& other, const V
     contacts.push_back(contact);
 }
 
-// Returns whether a free body has come to the other side of a segment since Bullet looked: that was before the body
-// moved, with the plant where it is now.
-bool has_changed_sides(const PlantBody& body, int child, const btCollisionObject& other, const Vec3& towards,
-                       double h) {
+// Returns whether a free body has moved far since Bullet looked: that was with the plant where it is now, but before
+// the body moved.
+bool has_moved_on(int child, const btCollisionObject& other, double h) {
     constexpr double FAR = 0.005;  // motion from which on they are swept anyhow [m]
-    if (child < 0 || !other.getCollisionShape()->isConvex() || !is_free(other)) return false;
-    if (!motion_of(other, h).is_far(FAR)) return false;
+    return child >= 0 && other.getCollisionShape()->isConvex() && is_free(other) && motion_of(other, h).is_far(FAR);
+}
+
+// Finds the nearest points of a convex body and a plant's child where both are now.
+ShapeGap gap_now(const PlantBody& body, int child, const btCollisionObject& other) {
     const auto* compound = static_cast<const btCompoundShape*>(body.getCollisionShape());
-    const Vec3 side = side_of(static_cast<const btConvexShape&>(*other.getCollisionShape()), other.getWorldTransform(),
-                              static_cast<const btConvexShape&>(*compound->getChildShape(child)),
-                              body.getWorldTransform() * compound->getChildTransform(child));
-    return side.dot(towards) > 0;
+    return gap_between(static_cast<const btConvexShape&>(*other.getCollisionShape()), other.getWorldTransform(),
+                       static_cast<const btConvexShape&>(*compound->getChildShape(child)),
+                       body.getWorldTransform() * compound->getChildTransform(child));
 }
 
 // Adds a manifold's contacts. Manifolds of planes are skipped: they were made for queries between steps.
@@ -126,6 +127,7 @@ void add_manifold(World& world, const btPersistentManifold& manifold, double h, 
     // Modal plants are only checked for touch: their last pose is near enough.
     if (!body->plant->state.modal) look_at(*body);
     std::vector<int> plates;  // plates whose corners have been added
+    std::vector<int> seen;    // children whose nearest points were found anew
     for (int i = 0; i < manifold.getNumContacts(); i++) {
         const btManifoldPoint& p = manifold.getContactPoint(i);
         const btVector3 on_other = other->getWorldTransform() * (plant_first ? p.m_localPointB : p.m_localPointA);
@@ -134,7 +136,14 @@ void add_manifold(World& world, const btPersistentManifold& manifold, double h, 
         const int capsule = child < 0 ? nearest_capsule(*body, from_bullet(on_other)) : body->hull->capsule_of(child);
         if (capsule < 0 || is_apart(*body, capsule, *other)) continue;
         const Vec3 towards = (plant_first ? 1.0 : -1.0) * from_bullet(p.m_normalWorldOnB);
-        if (has_changed_sides(*body, child, *other, towards, h)) continue;
+        if (has_moved_on(child, *other, h)) {
+            const ShapeGap now = gap_now(*body, child, *other);
+            if (now.normal.dot(towards) > 0) continue;  // it has come to the child's other side
+            if (!now.normal.isZero() && std::find(seen.begin(), seen.end(), child) == seen.end()) {
+                seen.push_back(child);
+                add_contact(*body, capsule, *other, now.on_a, -now.normal, h, contacts);
+            }
+        }
         add_contact(*body, capsule, *other, from_bullet(on_other), towards, h, contacts);
         const bool is_flat = body->hull->flats[size_t(capsule)].half_width > 0;
         if (!is_flat || std::find(plates.begin(), plates.end(), capsule) != plates.end()) continue;

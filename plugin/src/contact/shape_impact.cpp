@@ -33,12 +33,6 @@ static double reach_of(const btConvexShape& shape) {
 
 namespace {
 
-// Nearest points of two shapes, by Bullet's GJK and, where they overlap, EPA.
-struct ShapeGap {
-    double distance = INFINITY;  // [m]
-    Vec3 normal = Vec3::Zero(), on_b = Vec3::Zero();
-};
-
 struct GapFinder {
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver depth;
@@ -51,8 +45,9 @@ struct GapFinder {
         btPointCollector nearest;
         detector.getClosestPoints(input, nearest, nullptr);
         if (!nearest.m_hasResult) return {};
-        return {double(nearest.m_distance), from_bullet(nearest.m_normalOnBInWorld),
-                from_bullet(nearest.m_pointInWorld)};
+        const double distance = double(nearest.m_distance);
+        const Vec3 normal = from_bullet(nearest.m_normalOnBInWorld), on_b = from_bullet(nearest.m_pointInWorld);
+        return {distance, normal, on_b + distance * normal, on_b};
     }
 };
 
@@ -83,8 +78,8 @@ bool are_out_of_reach(const MovingShape& a, const MovingShape& b, double turning
 
 }  // namespace
 
-Vec3 side_of(const btConvexShape& a, const btTransform& at_a, const btConvexShape& b, const btTransform& at_b) {
-    return GapFinder(a, b).find(at_a, at_b).normal;
+ShapeGap gap_between(const btConvexShape& a, const btTransform& at_a, const btConvexShape& b, const btTransform& at_b) {
+    return GapFinder(a, b).find(at_a, at_b);
 }
 
 std::optional<ShapeImpact> first_impact(const MovingShape& a, const MovingShape& b) {
@@ -104,7 +99,7 @@ std::optional<ShapeImpact> first_impact(const MovingShape& a, const MovingShape&
     };
     advance(TOUCH, MOST_STEPS, gap_at, until, [&](double time, const ShapeGap& gap) {
         // What touches and parts does not meet.
-        if (approach(gap) > 0) impact = ShapeImpact{time, gap.normal, gap.on_b + gap.distance * gap.normal, gap.on_b};
+        if (approach(gap) > 0) impact = ShapeImpact{time, gap.normal, gap.on_a, gap.on_b};
     });
     return impact;
 }

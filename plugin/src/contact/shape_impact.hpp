@@ -3,6 +3,7 @@
 
 #include <BulletCollision/CollisionShapes/btConvexShape.h>
 
+#include <cmath>
 #include <optional>
 
 #include "core/types.hpp"
@@ -33,9 +34,12 @@ struct ShapeImpact {
 // btContinuousConvexCollision gives up after a number of iterations).
 std::optional<ShapeImpact> first_impact(const MovingShape& a, const MovingShape& b);
 
-// Returns the direction from b to a between their nearest points, or in which they part on the shortest way; zero if
-// there is none.
-Vec3 side_of(const btConvexShape& a, const btTransform& at_a, const btConvexShape& b, const btTransform& at_b);
+// Nearest points of two shapes, or those at which they part on the shortest way, by Bullet's GJK and EPA.
+struct ShapeGap {
+    double distance = INFINITY;                                            // below zero where they overlap [m]
+    Vec3 normal = Vec3::Zero(), on_a = Vec3::Zero(), on_b = Vec3::Zero();  // from b to a; zero if there are none
+};
+ShapeGap gap_between(const btConvexShape& a, const btTransform& at_a, const btConvexShape& b, const btTransform& at_b);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -24,12 +24,13 @@ namespace frond {
 namespace {
 
 struct Newton : StageEquations {
-    int iterations = 1;       // most Newton iterations
-    bool is_long = false;     // the step is longer than the period of hanging parts, and has one solve
-    bool is_pulled = false;   // springs pull at rods from afar, and the step has one solve
-    bool for_fibres = false;  // the one solve missed their energy, and others follow
-    bool skipped = false;     // the first solve was left to the line search
-    int most_work = 0;        // limit of report.work; 0: none
+    int iterations = 1;        // most Newton iterations
+    bool is_long = false;      // the step is longer than the period of hanging parts, and has one solve
+    bool is_pulled = false;    // springs pull at rods from afar, and the step has one solve
+    bool for_fibres = false;   // the one solve missed their energy, and others follow
+    bool skipped = false;      // the first solve was left to the line search
+    bool damps_later = false;  // the search began at rest, without damping
+    int most_work = 0;         // limit of report.work; 0: none
 };
 
 // Returns whether the last solve, of a system formed with those velocities, took the energy of fibres for what it is.
@@ -122,28 +123,36 @@ bool search_line(Newton& n, double most, VecX& rhs, double& norm) {
 
 // Starts the search at rest if the potential is less there. If straight motion would wind segments up, a search from
 // its end reaches another minimum than the plant's, or none; from rest it ends with no more energy than the step began
-// with and was given.
-void stand_still_if_better(Newton& n) {
+// with and was given. Returns whether it does.
+bool stand_still_if_better(Newton& n) {
     Workspace& w = n.w;
     const double moving = potential_at(n, w.v);
     w.v_trial = w.v;
     for (int i = 0; i < n.system.elements->node_count; ++i)
         if (!w.held[size_t(i)]) point(w.v_trial, i).setZero();
     follow_guides(n, w.v_trial);
-    if (!(moving <= potential_at(n, w.v_trial))) std::swap(w.v, w.v_trial);
+    if (moving <= potential_at(n, w.v_trial)) return false;
+    std::swap(w.v, w.v_trial);
+    return true;
 }
 
 // Leaves the first solve to the line search. Returns the norm of the residual, negative on failure.
 double skip_first(Newton& n) {
     constexpr int SEARCHED_ITERATIONS = 20;  // solves granted to a stage that is searched
+    const SolveSettings& settings = n.input.settings;
     Timer timer;
     if (n.iterations < SEARCHED_ITERATIONS) {
         n.iterations = SEARCHED_ITERATIONS;
-        const int most = n.input.settings.most_work;
+        const int most = settings.most_work;
         n.most_work = most > 0 ? n.report.work + most : 0;
     }
     n.skipped = true;
-    if (n.input.settings.from_rest || n.is_pulled) stand_still_if_better(n);
+    retract(n, n.input.motion.x, n.w.v);
+    form_damping(n);
+    const bool stands = (settings.from_rest || n.is_pulled) && stand_still_if_better(n);
+    // What has no lengths that could be kept as it turns is damped later; what contacts push must not pass them.
+    n.damps_later = stands && n.keep_damping && !n.body.retract && !settings.is_touched;
+    n.keep_damping &= !n.damps_later;
     const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
     n.report.ms_assembly += timer.lap();
     return std::isfinite(norm) ? norm : -1;
@@ -158,11 +167,10 @@ bool ends_calmly(Newton& n, double part) {
 // Does the first solve, the only one with one iteration. Returns the norm of its right-hand side, negative on failure.
 double solve_first(Newton& n) {
     Timer timer;
+    if (n.input.settings.careful) return skip_first(n);
     linearize_at_start(n);
-    if (n.input.settings.careful || (n.body.needs_search && n.report.inverted > 0)) {
-        n.report.ms_assembly += timer.lap();
-        return skip_first(n);
-    }
+    n.report.ms_assembly += timer.lap();
+    if (n.body.needs_search && n.report.inverted > 0) return skip_first(n);
     form_matrix(n, true, n.exact ? Tangent::exact : Tangent::positive);
     hold(n);
     const double norm = free_norm(n, n.w.rhs);
@@ -189,9 +197,19 @@ constexpr double TINY = 1e-11;
 // as it does for a plant stretched to many times its length.
 constexpr double FAR = 1;
 
+// Begins to damp a search that began at rest, amid the way that it found. Damping is a wall between rest and what has
+// turned, beyond which the search would not come. Returns the norm of the residual.
+double damp(Newton& n, VecX& rhs) {
+    n.damps_later = false;
+    form_damping(n);
+    stand_still_if_better(n);
+    return residual_at(n, n.w.v, rhs);
+}
+
 // Does further solves until the residual is small against the first one, or changes reach the resolution of double.
 bool iterate(Newton& n, double first) {
-    constexpr double ROUGHLY = 0.01;  // residual over the first that is small where fibres are met [-]
+    constexpr double ROUGHLY = 0.01;        // residual over the first that is small where fibres are met [-]
+    constexpr double BEFORE_DAMPING = 0.1;  // likewise, where damping begins [-]
     const SolveSettings& s = n.input.settings;
     Workspace& w = n.w;
     double change = n.skipped ? INFINITY : w.dv.cwiseAbs().maxCoeff() * n.stage.step;
@@ -205,6 +223,7 @@ bool iterate(Newton& n, double first) {
     bool has_moved = !n.skipped;
     double enough = s.newton_tolerance * first;
     for (int iteration = 1;; ++iteration) {
+        if (n.damps_later && (norm <= BEFORE_DAMPING * first || change <= TINY * n.system.size)) norm = damp(n, rhs);
         n.report.converged = norm <= enough || change <= TINY * n.system.size;
         if (n.report.converged || iteration == n.iterations || is_spent(n)) return std::isfinite(norm);
         if (!find_direction(n, tangent, rhs)) return false;
@@ -215,7 +234,9 @@ bool iterate(Newton& n, double first) {
         if (n.for_fibres && better && meets_fibres(n, v_before)) enough = std::max(enough, ROUGHLY * first);
         n.report.ms_assembly += timer.lap();
         // The exact stiffness may give a direction that does not descend; the positive one's does.
-        if (!better && tangent == Tangent::positive) {
+        if (!better && tangent == Tangent::positive && n.damps_later) {
+            norm = damp(n, rhs);
+        } else if (!better && tangent == Tangent::positive) {
             n.report.converged = change <= TINY * n.system.size;
             return has_moved || change <= FAR * n.system.size;
         }
@@ -240,23 +261,24 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     n.is_pulled = system.row->moves_chain && input.loads.springs_are_far && n.iterations == 1;
     n.is_long = is_long_stage(system, stage.step) && n.iterations == 1;
     n.exact = n.is_long || n.is_pulled;
-    n.keep_damping =
-        n.apart || (n.rayleigh > 0 && (n.iterations > 1 || n.exact || n.body.needs_search || settings.careful));
-    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.exact && !settings.careful;
+    n.at_once = n.body.add_ahead && !n.exact && !settings.careful;
     if (settings.careful && settings.most_work > 0) n.most_work = report.work + settings.most_work;
     workspace.v = workspace.v_start;
     follow_guides(n, workspace.v);
     workspace.reach = stage.step;
     workspace.retract_from.resize(0);
+    if (n.exact) form_damping(n);
     const bool converged_before = report.converged;
     const double first = solve_first(n);
     if (first < 0) return false;
     if (n.iterations == 1 && input.loads.fibres && !meets_fibres(n, workspace.v_start)) {
         n.for_fibres = true;
         n.iterations = ENOUGH_SOLVES;
-        prepare_to_go_on(n);
     }
-    if (n.iterations > 1 && !iterate(n, first)) return false;
+    if (n.iterations > 1) {
+        if (!n.skipped) form_damping(n);
+        if (!iterate(n, first)) return false;
+    }
     report.converged &= converged_before;
     set_positions(n, workspace.v);
     return true;

@@ -50,13 +50,25 @@ const VecX& linearized_from(const StageEquations& e) {
     return &e.stage.x_from == &start || is_calm(e.system, start, e.stage.x_from) ? e.stage.x_from : start;
 }
 
-// Adds force, positive stiffness, and damping that is not a multiple of that.
-static void assemble(StageEquations& e, const VecX& from) {
+void form_damping(StageEquations& e) {
+    e.at_once = false;
+    if (!e.apart && !(e.rayleigh > 0)) return;
+    e.keep_damping = true;
     Workspace& w = e.w;
-    if (e.apart) w.damping.set_zero();
-    e.report.inverted = e.apart ? e.body.add_force_stiffness_and_damping(*w.elements, from, w.element_damping,
-                                                                         w.elastic, w.A, w.damping)
-                                : e.body.add_force_and_stiffness(*w.elements, from, Tangent::positive, w.elastic, w.A);
+    const VecX* at = &linearized_from(e);
+    if (&e.stage.x_base == &e.input.motion.x) {
+        w.x_middle = e.stage.x_base + 0.5 * e.stage.step * w.v;
+        if (is_calm(e.system, e.stage.x_base, w.x_middle)) at = &w.x_middle;
+    }
+    w.damping.set_pattern(e.system.elements->pattern);
+    w.damping.set_zero();
+    if (!e.apart) {
+        e.body.add_stiffness(*w.elements, *at, Tangent::positive, 1, w.damping);
+        return;
+    }
+    w.elastic.setZero(at->size());
+    w.A.set_zero();
+    e.body.add_force_stiffness_and_damping(*w.elements, *at, w.element_damping, w.elastic, w.A, w.damping);
 }
 
 void linearize_at_start(StageEquations& e) {
@@ -73,13 +85,15 @@ void linearize_at_start(StageEquations& e) {
             w.elastic, w.A);
         return start_residual(e, w.v, w.rhs);
     }
-    assemble(e, from);
-    const bool is_multiple = !e.apart && !e.exact;  // the damping is a multiple of this stiffness
-    if (!e.apart && (e.exact || e.keep_damping)) w.damping = w.A;
-    if (e.exact) {
-        w.A.set_zero();
-        e.body.add_stiffness(*w.elements, from, Tangent::exact, 1, w.A);
+    if (e.apart && !e.keep_damping) {
+        w.damping.set_zero();
+        e.report.inverted =
+            e.body.add_force_stiffness_and_damping(*w.elements, from, w.element_damping, w.elastic, w.A, w.damping);
+    } else {
+        const Tangent tangent = e.exact ? Tangent::exact : Tangent::positive;
+        e.report.inverted = e.body.add_force_and_stiffness(*w.elements, from, tangent, w.elastic, w.A);
     }
+    const bool is_multiple = !e.apart && !e.keep_damping;  // the damping is a multiple of this stiffness
     if (is_multiple) w.dv += e.rayleigh * w.v;
     w.A.multiply(w.dv, w.product);
     start_residual(e, w.v, w.rhs);
@@ -87,15 +101,6 @@ void linearize_at_start(StageEquations& e) {
     if (is_multiple) return;
     w.damping.multiply(w.v, w.product);
     w.rhs -= e.stage.step * e.rayleigh * w.product;
-}
-
-void prepare_to_go_on(StageEquations& e) {
-    e.at_once = false;
-    if (!e.apart && !(e.rayleigh > 0)) return;
-    e.keep_damping = true;
-    e.w.A.set_zero();
-    assemble(e, linearized_from(e));
-    if (!e.apart) e.w.damping = e.w.A;
 }
 
 double residual_at(StageEquations& e, const VecX& v, VecX& rhs) {
@@ -152,11 +157,11 @@ void add_inertia(Workspace& w, double scale) {
 void form_matrix(StageEquations& e, bool first, Tangent tangent) {
     BlockMatrix& A = e.w.A;
     const double step = e.stage.step, mass = 1 + step * e.input.settings.mass_damping;
-    const bool alike = first && !e.apart && !e.exact;
+    const bool alike = first && !e.apart && !e.keep_damping;
     const double scale = step * step + (alike ? step * e.rayleigh : 0);
     if (!e.at_once)
         for (double& value : A.values) value *= scale;
-    if (!e.at_once && !alike && e.keep_damping)
+    if (!e.at_once && !alike && (e.apart || e.keep_damping))
         for (size_t k = 0; k < A.values.size(); ++k) A.values[k] += step * e.rayleigh * e.w.damping.values[k];
     add_mass(e.system.masses, mass, A);
     add_inertia(e.w, mass);

@@ -10,7 +10,7 @@ struct Workspace {
     std::shared_ptr<const System> system;
     const Elements* elements = nullptr;  // the system's, or those of a plant that has yielded
     BlockMatrix A;                       // stiffness, then the matrix of the linear system
-    // D = mass_damping M + damping_scale K + damping, of K at the start of the step. If all elements damp alike,
+    // D = mass_damping M + damping_scale K + damping, see solve/stage_equations.hpp. If all elements damp alike,
     // `damping` is that K and filled only if several Newton iterations need it; else it has each element's own share of
     // damping times stiffness.
     double damping_scale = 0;             // [s]
@@ -32,6 +32,7 @@ struct Workspace {
     VecX x_prev, v_prev;           // start of the step before, held nodes likewise
     VecX x_rate, v_rate;           // rates at the end of the step, for the next one
     VecX x_base, v_base, x_from;   // base and prediction of the stage
+    VecX x_middle;                 // of its straight way
     VecX force, impulse;           // forces at the start of the step [N], impulse of the stage [N s]
     double reach = 0;              // derivative of positions by velocities at the end [s]
     VecX rhs_stage;                // residual at v
