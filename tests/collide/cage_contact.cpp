@@ -211,6 +211,35 @@ TEST(CageContact, ConvexBodiesComeApartAlongTheirDeepestContacts) {
     EXPECT_EQ(overlapped, 60);
 }
 
+// Moves every node of a cage by up to that much.
+void crumple(TestCage& cage, Dice& dice, double most) {
+    for (Vec3& place : cage.places)
+        for (int c = 0; c < 3; ++c) place[c] += dice.uniform(-most, most);
+}
+
+TEST(CageContact, AnEdgeThatHardlyDipsInHasShallowContacts) {
+    // It is inside for long, and below ridges of faces that it does not pass through.
+    constexpr double STEP = 1e-4, CRUMPLED = 1e-3;
+    Dice dice(7);
+    for (int n = 0; n < 100; ++n) {
+        TestCage bar = box_cage(1, 1, 1, {0.8, 0.1, 0.1}), ground = box_cage(8, 1, 8, {1.2, 0.1, 1.2});
+        crumple(ground, dice, CRUMPLED);
+        bar.move(-bar.middle());
+        ground.move(-ground.middle());
+        bar.turn((Eigen::AngleAxisd(dice.uniform(-PI, PI), Vec3::UnitY()) *
+                  Eigen::AngleAxisd(dice.uniform(-0.01, 0.01), Vec3::UnitZ()) *
+                  Eigen::AngleAxisd(PI / 4, Vec3::UnitX()))
+                     .toRotationMatrix());
+        bar.move({dice.uniform(-0.1, 0.1), 0.05 + 0.1 / std::sqrt(2.0) - 0.002, dice.uniform(-0.1, 0.1)});
+        while (deepest_overlap(bar.boundary(), ground.boundary()).pairs > 0) bar.move({0, STEP, 0});
+        for (const double dip : {STEP, 10 * STEP}) {
+            bar.move({0, -dip, 0});
+            for (const CageContact& contact : contacts_of({bar.body(), ground.body()}))
+                EXPECT_LT(contact.depth, 4 * CRUMPLED) << n << ", dips in by " << dip << ", kind " << int(contact.kind);
+        }
+    }
+}
+
 TEST(CageContact, PartsOfAPlantCollideButNotWhereTheyGrowOutOfEachOther) {
     const TestCage tree = tree_cage(12, 8, 6);
     EXPECT_TRUE(contacts_of({tree.body(true)}).empty());
