@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "support/referee.hpp"
 #include "support/sanitized.hpp"
 #include "support/stand.hpp"
 
@@ -67,18 +68,17 @@ struct Sling : Stand {
     // Returns the distance of the stem's surface from the ball where its velocity takes it in the next step [m]: the
     // response to contacts of a step moves bodies in the one after it.
     double distance() const {
+        constexpr double CORE = 0.005;  // radius of a ball within the ball, which no stem reaches [m]
         const frond_rigid_state state = ball_state();
         const auto vec = [](const frond_vec3& v) { return frond::Vec3(v.x, v.y, v.z); };
         const frond::Vec3 centre = vec(state.position) + h * vec(state.velocity);
         std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plants[0])));
         must(frond_plant_get_capsules(plants[0], capsules.data(), int(capsules.size())));
+        const frond::Capsule core = {centre, centre, CORE};
         double least = INFINITY;
-        for (const auto& [begin, end, radius] : capsules) {
-            const frond::Vec3 axis = vec(end) - vec(begin), way = centre - vec(begin);
-            const double along = std::min(1.0, std::max(0.0, way.dot(axis) / axis.squaredNorm()));
-            least = std::min(least, (way - along * axis).norm() - radius - BALL);
-        }
-        return least;
+        for (const auto& [begin, end, radius] : capsules)
+            least = std::min(least, frond::test::referee_distance(core, {vec(begin), vec(end), radius}));
+        return least - (BALL - CORE);
     }
     frond_rigid_state ball_state() const {
         frond_rigid_state state = {};

@@ -241,6 +241,7 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     history.h = h;
     plant.view.lead = 0;
     plant.step.is_sound = true;
+    // Of what settings_for() gives, this alone may differ within a batch.
     plant.step.settings = settings;
     plant.step.settings.is_touched = plant.state.is_touched;
     for (int c = 0; c < 3; c++) plant.state.blown[c] = space.forces[size_t(c * step.lanes + lane)];

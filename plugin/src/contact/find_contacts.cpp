@@ -104,7 +104,12 @@ bool has_moved_on(int child, const btCollisionObject& other, double h) {
     return child >= 0 && other.getCollisionShape()->isConvex() && is_free(other) && motion_of(other, h).is_far(FAR);
 }
 
-// Finds the nearest points of a convex body and a plant's child where both are now.
+// The nearest points of a convex body and a plant's child where both are now.
+struct ChildGap {
+    int child;
+    ShapeGap gap;
+    bool has_contact;
+};
 ShapeGap gap_now(const PlantBody& body, int child, const btCollisionObject& other) {
     const auto* compound = static_cast<const btCompoundShape*>(body.getCollisionShape());
     return gap_between(static_cast<const btConvexShape&>(*other.getCollisionShape()), other.getWorldTransform(),
@@ -127,7 +132,7 @@ void add_manifold(World& world, const btPersistentManifold& manifold, double h, 
     // Modal plants are only checked for touch: their last pose is near enough.
     if (!body->plant->state.modal) look_at(*body);
     std::vector<int> plates;  // plates whose corners have been added
-    std::vector<int> seen;    // children whose nearest points were found anew
+    std::vector<ChildGap> gaps;
     for (int i = 0; i < manifold.getNumContacts(); i++) {
         const btManifoldPoint& p = manifold.getContactPoint(i);
         const btVector3 on_other = other->getWorldTransform() * (plant_first ? p.m_localPointB : p.m_localPointA);
@@ -137,11 +142,13 @@ void add_manifold(World& world, const btPersistentManifold& manifold, double h, 
         if (capsule < 0 || is_apart(*body, capsule, *other)) continue;
         const Vec3 towards = (plant_first ? 1.0 : -1.0) * from_bullet(p.m_normalWorldOnB);
         if (has_moved_on(child, *other, h)) {
-            const ShapeGap now = gap_now(*body, child, *other);
-            if (now.normal.dot(towards) > 0) continue;  // it has come to the child's other side
-            if (!now.normal.isZero() && std::find(seen.begin(), seen.end(), child) == seen.end()) {
-                seen.push_back(child);
-                add_contact(*body, capsule, *other, now.on_a, -now.normal, h, contacts);
+            const auto is_of_child = [&](const ChildGap& now) { return now.child == child; };
+            auto now = std::find_if(gaps.begin(), gaps.end(), is_of_child);
+            if (now == gaps.end()) now = gaps.insert(now, {child, gap_now(*body, child, *other), false});
+            if (now->gap.normal.dot(towards) > 0) continue;  // it has come to the child's other side
+            if (!now->has_contact && !now->gap.normal.isZero()) {
+                now->has_contact = true;
+                add_contact(*body, capsule, *other, now->gap.on_a, -now->gap.normal, h, contacts);
             }
         }
         add_contact(*body, capsule, *other, from_bullet(on_other), towards, h, contacts);

@@ -24,7 +24,7 @@ struct StageEquations {
     bool apart = false;         // elements differ in damping ratio: the damping is not a multiple of the stiffness
     bool keep_damping = false;  // the damping matrix is kept besides the stiffness, for several solves
     bool exact = false;         // the first solve uses the exact stiffness, the damping still the positive one
-    bool at_once = false;       // the mechanics assemble right-hand side and matrix of the only solve in one pass
+    bool at_once = false;       // the mechanics assemble right-hand side and matrix of the first solve in one pass
 };
 
 // Sets w.x to the end of the stage with velocities v.
