@@ -111,14 +111,16 @@ void Laws::check_finite(const Standing& plant) {
         throw Breach(Law::FINITE, "a plant is not finite");
 }
 
-// A rooted plant is where its foot is. Another one may have gone as fast as anything could make it go. The linear law
-// knows no end of bending: a force carries a leaf any number of its lengths away.
+// A rooted plant is where its foot is. Another one may have gone as fast as anything could make it go; so may leaves by
+// the linear law, which knows no end of bending: in a wind of 15 m/s one of the wheat goes 2.7 m in a third of a
+// second, by steps of 1/480 s as well. A force of the host carries them at any speed.
 void Laws::check_places(const Standing& plant, const Loads& loads) {
     constexpr double REACH = 2, FAST = 30;  // [sizes], [m/s]
-    if (plant.def.mechanics == FROND_MECHANICS_TET_LINEAR && loads.force > 0) return;
+    const bool is_linear = plant.def.mechanics == FROND_MECHANICS_TET_LINEAR;
+    if (is_linear && loads.force > 0) return;
     const Places now = places_of(plant.handle);
-    const bool is_rooted =
-        plant.def.root_height >= 0 && !plant.is_changed && frond_plant_get_fragment_count(plant.handle) == 0;
+    const bool is_rooted = !is_linear && plant.def.root_height >= 0 && !plant.is_changed &&
+                           frond_plant_get_fragment_count(plant.handle) == 0;
     const double fall = GRAVITY * time * time;
     const double allowed = REACH * plant.size + plant.carried +
                            (is_rooted ? 0 : fall + (FAST + 3 * loads.speed + loads.impulse / plant.info.mass) * time);

@@ -44,7 +44,8 @@ constexpr AllowedEnergy OF_ONE_SOLVE = {0.01, 0.01}, CONVERGED = {0, 1e-5};
 static bool has_energy_from_nowhere(Plant& plant, const AllowedEnergy& allowed, double h) {
     const LoadWork work = work_of_loads(plant, h);
     const VecX way = way_of_step(plant);
-    const double by_contacts = is_pushed(plant) ? std::min(plant.step.push->most_work, work.contacts) : 0;
+    const ContactPush* push = plant.step.push.get();
+    const double by_contacts = is_pushed(plant) ? std::min(push->share * push->most_work, work.contacts) : 0;
     const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good;
     const double given = by_contacts + work.forces + work.grabs + work.air + work.pins + work.error +
                          (plant.follow ? std::abs(work.air) : 0) + work_of_weight(plant, way) +

@@ -144,7 +144,7 @@ struct ContactPush {
     double share = 1;       // of it that the plant takes, less where it has turned away from what pushes it [-]
     double gone = 1;        // share of the solved way that the plant goes [-]
     double asked_work = 0;  // of the impulse along the velocities at which it is to part from what stands [J]
-    double most_work = 0;   // that it can have done [J]
+    double most_work = 0;   // that all of it can have done [J]
     // Where the plant's elastic energy was last computed, and that [J].
     VecX x;
     double elastic = 0;
