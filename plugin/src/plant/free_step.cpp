@@ -1,6 +1,7 @@
 // Repeats and shortens the second half of a step.
 #include <algorithm>
 
+#include "plant/guard.hpp"
 #include "plant/load_work.hpp"
 #include "plant/plant_step.hpp"
 #include "solve/workspace.hpp"
@@ -36,12 +37,15 @@ void take_back(Plant& plant, const FreeStep& step) {
     if (plant.step.workspace) plant.step.workspace->retract_from = step.retract_from;
 }
 
-bool may_go_part_of_way(const Plant& plant, double share, double h) {
-    constexpr double LIFT = 0.5;  // speed of lifting the plant by its weight, for the work that is no matter [m/s]
-    const double before = elastic_energy(plant, plant.step.x_good),
-                 gained = std::max(0.0, elastic_energy(plant, plant.state.motion.x) - before),
-                 lift = node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
-    return elastic_energy(plant, plant.step.x_good + share * way_of_step(plant)) <= before + share * gained + lift;
+bool may_go_part_of_way(Plant& plant, double share, double h) {
+    Motion& motion = plant.state.motion;
+    const VecX x = motion.x, v = motion.v;
+    motion.x = plant.step.x_good + share * way_of_step(plant);
+    motion.v *= share;
+    const bool may = gains_no_energy(plant, h);
+    motion.x = x;
+    motion.v = v;
+    return may;
 }
 
 void go_part_of_way(Plant& plant, double share) {

@@ -42,6 +42,9 @@ bool may_inflate(const Plant& plant);
 // may inflate the plant, or its substeps were too long: in the last of them a node may become much faster and hardly go
 // anywhere.
 bool keeps_course(Plant& plant, double h);
+// Returns whether the plant gained no more energy in a step of h [s] than loads and contacts can have given, but for a
+// hundredth of what it had and of what lifts it by its size.
+bool gains_no_energy(Plant& plant, double h);
 // Returns whether no node ran away, and none left its course with energy that nothing can have given. A pressed plant
 // springs far in a solve without contacts, and its energy is meaningless there.
 bool is_plausible(Plant& plant, double h);

@@ -105,6 +105,10 @@ bool keeps_course(Plant& plant, double h) {
     return !(is_asked && has_energy_from_nowhere(plant, allowed, h)) && !has_run_away(plant);
 }
 
+bool gains_no_energy(Plant& plant, double h) {
+    return !has_energy_from_nowhere(plant, OF_ONE_SOLVE, h);
+}
+
 bool is_plausible(Plant& plant, double h) {
     if (plant.step.push || !plant.state.is_touched) return keeps_course(plant, h);
     plant.step.is_off_course = ends_off_course(plant, h);

@@ -63,8 +63,8 @@ struct FreeStep {
 FreeStep free_step(const Plant& plant);
 void take_back(Plant& plant, const FreeStep& step);
 // Goes only a share of the solved step's way, more slowly. A straight way of nodes strains a plant that turns far:
-// the first returns whether it would be no more strained than that share between both ends.
-bool may_go_part_of_way(const Plant& plant, double share, double h);
+// the first returns whether it would gain no energy that nothing gave it.
+bool may_go_part_of_way(Plant& plant, double share, double h);
 void go_part_of_way(Plant& plant, double share);
 
 // The second half.

@@ -48,18 +48,20 @@ bool is_spent(const Newton& n) {
     return n.most_work > 0 && n.report.work >= n.most_work;
 }
 
-// Keeps the strain that the solve linearized at `from` gave to what rotates, by velocities that lead there; or leaves
-// that to retract_step().
+// Keeps the strain that a solve linearized at `from` gave to what rotates, by velocities that lead there.
 void retract(const Newton& n, const VecX& from, VecX& v) {
     follow_guides(n, v);
     if (!n.body.retract) return;
-    if (n.input.settings.is_touched) {
-        if (n.iterations == 1) n.w.retract_from = from;
-        return;
-    }
     set_positions(n, v);
     n.body.retract(*n.w.elements, from, n.w.x, n.w.held, n.w.retracted);
     v += (1 / n.stage.step) * (n.w.retracted - n.w.x);
+}
+
+// Does so for the first solve, or leaves that to retract_step().
+void retract_first(const Newton& n, const VecX& from, VecX& v) {
+    if (!n.input.settings.is_touched) return retract(n, from, v);
+    follow_guides(n, v);
+    if (n.body.retract && n.iterations == 1) n.w.retract_from = from;
 }
 
 // Solves for dv with the matrix in A and the right-hand side.
@@ -93,8 +95,9 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
     }
 }
 
-// Goes along dv as far as the residual decreases while the potential stays below `most`, or the potential decreases
-// enough (Armijo 1966; Nocedal and Wright 2006, section 3.1). Returns false if neither does.
+// Goes along dv, rods on a curve that gives them its strain, as far as the residual decreases while the potential stays
+// below `most`, or the potential decreases enough (Armijo 1966; Nocedal and Wright 2006, section 3.1). Returns false if
+// neither does.
 bool search_line(Newton& n, double most, VecX& rhs, double& norm) {
     constexpr int HALVINGS = 12;       // of a direction; a step of a 4000th is none
     constexpr double DESCENT = 1e-4;   // share of the linear decrease that is enough [-]
@@ -103,11 +106,12 @@ bool search_line(Newton& n, double most, VecX& rhs, double& norm) {
     VecX& direction = w.direction;
     direction = w.dv;
     const double slope = -direction.dot(rhs), start = potential_at(n, w.v);
+    w.search_from = w.x;
     const double bound = std::max(most, start + ROUNDING * std::abs(start));
     double part = 1;
     for (int trial = 0; trial <= HALVINGS; ++trial, part *= 0.5) {
         w.v_trial = w.v + part * direction;
-        follow_guides(n, w.v_trial);
+        retract(n, w.search_from, w.v_trial);
         const double potential = potential_at(n, w.v_trial);
         if (!(potential <= bound)) continue;
         const double norm_trial = residual_at(n, w.v_trial, w.rhs_trial);
@@ -147,7 +151,7 @@ double skip_first(Newton& n) {
         n.most_work = most > 0 ? n.report.work + most : 0;
     }
     n.skipped = true;
-    retract(n, n.input.motion.x, n.w.v);
+    retract_first(n, n.input.motion.x, n.w.v);
     form_damping(n);
     const bool stands = (settings.from_rest || n.is_pulled) && stand_still_if_better(n);
     // What has no lengths that could be kept as it turns is damped later; what contacts push must not pass them.
@@ -187,7 +191,7 @@ double solve_first(Newton& n) {
     if ((n.is_pulled || (n.is_long && !n.exact)) && !ends_calmly(n, 1)) return skip_first(n);
     while (n.exact && part > LEAST && !ends_calmly(n, part)) part *= 0.5;
     n.w.v += part * n.w.dv;
-    retract(n, linearized_from(n), n.w.v);
+    retract_first(n, linearized_from(n), n.w.v);
     return norm;
 }
 

@@ -39,6 +39,7 @@ struct Workspace {
     VecX retracted;                // end of the stage after Mechanics::retract [m]
     VecX retract_from;             // where the only solve was linearized, if retract_step() is to come; else empty [m]
     VecX direction, v_trial, rhs_trial;  // scratch of the line search
+    VecX search_from;                    // positions where it begins
 };
 
 }  // namespace frond
