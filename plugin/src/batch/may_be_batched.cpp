@@ -4,6 +4,7 @@
 #include "plant/guard.hpp"
 #include "plant/pins.hpp"
 #include "plant/plant_step.hpp"
+#include "solve/integrator.hpp"
 
 namespace frond {
 
@@ -13,7 +14,8 @@ static bool foresee_method(Plant& plant, double h) {
     const History& history = plant.state.motion.history;
     plant.step.looks_back = history.valid && (history.x_end.size() == 0 ||
                                               history_holds(plant.state.motion, plant.input.settings.integrator, h));
-    return plant.step.looks_back || history.shaken || plant.state.is_touched;
+    if (plant.step.looks_back) return true;
+    return (history.shaken || plant.state.is_touched) && !goes_on_rigidly(*plant.system, plant.state.motion);
 }
 
 bool goes_on(const Plant& plant, double h) {

@@ -17,10 +17,11 @@ struct StepInput {
 struct Stage {
     const VecX& x_base;
     const VecX& v_base;
-    double step;                    // [s]
-    const VecX& x_from;             // positions at which the first solve evaluates forces and stiffness [m]
-    const VecX* impulse = nullptr;  // [N s]
-    int iterations = 0;             // Newton iterations at most; 0: as the settings say
+    double step;                     // [s]
+    const VecX& x_from;              // positions at which the first solve evaluates forces and stiffness [m]
+    const VecX* impulse = nullptr;   // [N s]
+    int iterations = 0;              // Newton iterations at most; 0: as the settings say
+    const VecX* undamped = nullptr;  // velocities that strain nothing at x_from [m/s]; null: none
 };
 
 // Length beyond which a stage of rods is longer than the period of hanging parts [s].
@@ -81,10 +82,13 @@ void force_at_start(Workspace& workspace, const StepInput& input, SolveReport& r
 
 // Takes the step of implicit Euler by which other integrators step where they are not to look back, or have no stages.
 // With forces at the start, as the paper's, what turns ends inflated, so they are taken at the positions that the
-// velocities predict, where these are within the trust bound.
+// velocities predict, where these are within the trust bound; of a cage that nothing holds at those to which it would
+// go on rigidly.
 bool step_euler_ahead(Workspace& workspace, const StepInput& input, SolveReport& report);
-// Returns whether it does so: not where contacts follow, as velocities lead into what touches the plant, nor for what
-// is retracted and so keeps its lengths anyway.
+// Returns whether it does the latter.
+bool goes_on_rigidly(const System& system, const Motion& motion);
+// Returns whether it does the former otherwise: not where contacts follow, as velocities lead into what touches the
+// plant, nor for what is retracted and so keeps its lengths anyway.
 bool takes_forces_ahead(const System& system, const SolveSettings& settings);
 
 struct Integrator {

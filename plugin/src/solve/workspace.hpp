@@ -33,6 +33,7 @@ struct Workspace {
     VecX x_rate, v_rate;           // rates at the end of the step, for the next one
     VecX x_base, v_base, x_from;   // base and prediction of the stage
     VecX x_middle;                 // of its straight way
+    VecX v_rigid, v_damped;        // velocities of a rigid way, and those beside it
     VecX force, impulse;           // forces at the start of the step [N], impulse of the stage [N s]
     double reach = 0;              // derivative of positions by velocities at the end [s]
     VecX rhs_stage;                // residual at v
