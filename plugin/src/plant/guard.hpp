@@ -24,7 +24,9 @@ bool has_run_away(const Plant& plant);
 constexpr double FARTHEST_WAY = 4;  // displacement over the plant's size that is not questioned [-]
 // Returns whether the plant is stretched to many times its size.
 bool is_far_out(const Plant& plant);
-// Returns the potential energy [J]: elastic, and of the running step's weight, forces and springs, also of pins.
+// Returns the potential of the running step's forces and springs, also of pins [J].
+double potential_of_pulls(const Plant& plant, const VecX& x);
+// Returns the potential energy [J]: elastic, of weight and of those.
 double potential_energy(const Plant& plant, const VecX& x);
 // Returns the work of weight along a displacement of all nodes [J].
 double work_of_weight(const Plant& plant, const VecX& way);

@@ -20,13 +20,16 @@ double work_of_weight(const Plant& plant, const VecX& way) {
     return plant.step.loads->gravity.dot(moved);
 }
 
-double potential_energy(const Plant& plant, const VecX& x) {
+double potential_of_pulls(const Plant& plant, const VecX& x) {
     const Loads& loads = *plant.step.loads;
-    double energy = elastic_energy(plant, x) - work_of_weight(plant, x);
-    if (loads.force.size() > 0) energy -= loads.force.dot(x);
+    double energy = loads.force.size() > 0 ? -loads.force.dot(x) : 0;
     for (const Spring& spring : loads.springs)
         energy += 0.5 * spring.stiffness * (attachment_place(spring.attachment, x) - spring.target).squaredNorm();
     return energy;
+}
+
+double potential_energy(const Plant& plant, const VecX& x) {
+    return elastic_energy(plant, x) - work_of_weight(plant, x) + potential_of_pulls(plant, x);
 }
 
 double lifting_energy(const Plant& plant) {

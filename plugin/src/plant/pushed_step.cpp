@@ -29,19 +29,20 @@ double parting_work(const Plant& plant, double h) {
     return parting_work(node_mass_of(*plant.system).sum(), h);
 }
 
-// Corrects positions as far as nothing bends much and the work done on the plant stays small: contacts with conflicting
-// corrections would compress it like a spring. The rest is left to the next steps; even of an excessive correction a
-// little is applied, or thick stems would never part.
+// Corrects positions as far as nothing bends much and the work done on the plant, and by it on what pulls it, stays
+// small: contacts with conflicting corrections would compress it like a spring. The rest is left to the next steps;
+// even of an excessive correction a little is applied, or thick stems would never part.
 static VecX move_by(Plant& plant, const VecX& dv, double h) {
     constexpr double LEAST = 0.002;  // share [-]
     const VecX x = plant.state.motion.x;
     const ContactPush* push = plant.step.push.get();
     const bool is_known = push && push->x.size() == x.size() && push->x == x;
-    const double allowed = (is_known ? push->elastic : elastic_energy(plant, x)) + parting_work(plant, h);
+    const double allowed =
+        (is_known ? push->elastic : elastic_energy(plant, x)) + potential_of_pulls(plant, x) + parting_work(plant, h);
+    const auto energy_at = [&](const VecX& at) { return elastic_energy(plant, at) + potential_of_pulls(plant, at); };
     for (double share = 1; share > LEAST; share /= 2) {
         add_correction(*plant.step.workspace, share * dv, plant.state.motion);
-        if (is_calm_way(plant) && elastic_energy(plant, plant.state.motion.x) <= allowed)
-            return plant.state.motion.x - x;
+        if (is_calm_way(plant) && energy_at(plant.state.motion.x) <= allowed) return plant.state.motion.x - x;
         plant.state.motion.x = x;
     }
     return {};
