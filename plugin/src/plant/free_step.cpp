@@ -1,6 +1,4 @@
 // Repeats and shortens the second half of a step.
-#include <algorithm>
-
 #include "plant/guard.hpp"
 #include "plant/load_work.hpp"
 #include "plant/plant_step.hpp"
@@ -37,11 +35,15 @@ void take_back(Plant& plant, const FreeStep& step) {
     if (plant.step.workspace) plant.step.workspace->retract_from = step.retract_from;
 }
 
+static void shorten(Plant& plant, double share) {
+    plant.state.motion.x = plant.step.x_good + share * way_of_step(plant);
+    plant.state.motion.v *= share;
+}
+
 bool may_go_part_of_way(Plant& plant, double share, double h) {
     Motion& motion = plant.state.motion;
     const VecX x = motion.x, v = motion.v;
-    motion.x = plant.step.x_good + share * way_of_step(plant);
-    motion.v *= share;
+    shorten(plant, share);
     const bool may = gains_no_energy(plant, h);
     motion.x = x;
     motion.v = v;
@@ -49,10 +51,8 @@ bool may_go_part_of_way(Plant& plant, double share, double h) {
 }
 
 void go_part_of_way(Plant& plant, double share) {
-    Motion& motion = plant.state.motion;
-    motion.x = plant.step.x_good + share * way_of_step(plant);
-    motion.v *= share;
-    motion.history.valid = false;
+    shorten(plant, share);
+    plant.state.motion.history.valid = false;
     if (plant.step.push) plant.step.push->gone = share;
 }
 

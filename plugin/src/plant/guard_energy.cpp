@@ -74,17 +74,11 @@ static bool leads_springs(const Plant& plant) {
     return std::any_of(plant.input.pin_springs.begin(), plant.input.pin_springs.end(), is_led);
 }
 
-// Returns whether nothing holds a cage, whose pins hold nodes themselves.
-static bool is_loose_cage(const Plant& plant) {
-    const Motion& motion = plant.state.motion;
-    return next_pinned(motion, 0) == int(motion.pinned.size());
-}
-
 bool may_inflate(const Plant& plant) {
     if (plant.follow) return false;
     const bool is_implicit_euler =
         plant.state.is_touched || plant.input.settings.integrator == FROND_INTEGRATOR_IMPLICIT_EULER;
-    return is_implicit_euler || is_loose_cage(plant);
+    return is_implicit_euler || is_loose(plant.state.motion);
 }
 
 // Returns whether elements turn so far that a step on its course may be wrong. A neo-Hookean twig of 2 mm that turned

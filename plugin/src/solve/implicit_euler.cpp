@@ -1,6 +1,7 @@
 // Implicit Euler, the paper's equations (2) and (3) with corrected signs:
 //   (M + h D + h^2 K) dv = h (f - D v - h K v),  v' = v + dv,  x' = x + h v'
 // with f the forces at x. Several Newton iterations solve M dv = h (f(x') - D v') itself.
+#include "core/assert.hpp"
 #include "mechanics/rotation.hpp"
 #include "solve/integrator.hpp"
 
@@ -10,6 +11,7 @@ namespace frond {
 static void go_on_rigidly(const System& system, const Motion& motion, double h, VecX& x) {
     const VecX& mass = node_mass_of(system);
     const double whole = mass.sum();
+    FROND_ASSERT(whole > 0);
     Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero(), moment = Vec3::Zero();
     for (int i = 0; i < mass.size(); ++i) {
         centre += mass[i] / whole * point(motion.x, i);
@@ -47,7 +49,7 @@ bool step_implicit_euler(Workspace& workspace, const StepInput& input, SolveRepo
 }
 
 bool goes_on_rigidly(const System& system, const Motion& motion) {
-    return system.row->turns && !system.row->retract && next_pinned(motion, 0) == int(motion.pinned.size());
+    return system.row->turns && !system.row->retract && is_loose(motion);
 }
 
 bool takes_forces_ahead(const System& system, const SolveSettings& settings) {

@@ -92,6 +92,10 @@ struct Motion {
 };
 // Returns the first pinned node from the i-th on; the size of `pinned` if there is none.
 int next_pinned(const Motion& motion, int i);
+// Returns whether no node is pinned.
+inline bool is_loose(const Motion& motion) {
+    return next_pinned(motion, 0) == int(motion.pinned.size());
+}
 
 // A node that rotates about one axis only, as on a hinge, or about all but one, as in a fork.
 struct Guide {

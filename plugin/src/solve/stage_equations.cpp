@@ -79,13 +79,13 @@ void linearize_at_start(StageEquations& e) {
     w.A.set_zero();
     set_positions(e, w.v);
     w.dv = w.x - from;
-    w.v_damped = w.v;
-    if (e.stage.undamped && &from == &e.stage.x_from) w.v_damped -= *e.stage.undamped;
+    const bool is_rigid_way = e.stage.undamped && &from == &e.stage.x_from;
+    if (is_rigid_way) w.v_damped = w.v - *e.stage.undamped;
+    const VecX& damped = is_rigid_way ? w.v_damped : w.v;
     if (e.at_once) {
         e.report.inverted = e.body.add_ahead(
-            *w.elements, from,
-            {w.dv.data(), w.v_damped.data(), e.stage.step, e.apart ? 0 : e.rayleigh, w.element_damping}, w.elastic,
-            w.A);
+            *w.elements, from, {w.dv.data(), damped.data(), e.stage.step, e.apart ? 0 : e.rayleigh, w.element_damping},
+            w.elastic, w.A);
         return start_residual(e, w.v, w.rhs);
     }
     if (e.apart && !e.keep_damping) {
@@ -97,12 +97,12 @@ void linearize_at_start(StageEquations& e) {
         e.report.inverted = e.body.add_force_and_stiffness(*w.elements, from, tangent, w.elastic, w.A);
     }
     const bool is_multiple = !e.apart && !e.keep_damping;  // the damping is a multiple of this stiffness
-    if (is_multiple) w.dv += e.rayleigh * w.v_damped;
+    if (is_multiple) w.dv += e.rayleigh * damped;
     w.A.multiply(w.dv, w.product);
     start_residual(e, w.v, w.rhs);
     w.rhs -= e.stage.step * w.product;
     if (is_multiple) return;
-    w.damping.multiply(w.v_damped, w.product);
+    w.damping.multiply(damped, w.product);
     w.rhs -= e.stage.step * e.rayleigh * w.product;
 }
 
