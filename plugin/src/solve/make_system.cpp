@@ -29,6 +29,7 @@ static void finish(System& system, frond_mass mass) {
         lower = lower.cwiseMin(point(system.elements->rest_positions, i));
         upper = upper.cwiseMax(point(system.elements->rest_positions, i));
     }
+    system.is_gone = std::find(system.loose.begin(), system.loose.end(), uint8_t(0)) == system.loose.end();
     system.size = (upper - lower).maxCoeff();
 
     if (system.row->moves_chain) return;

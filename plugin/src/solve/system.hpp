@@ -13,6 +13,7 @@ struct System {
     Masses masses;
     bool damps_alike = true;     // all elements have the same damping ratio
     std::vector<uint8_t> loose;  // one a node: it belongs to no element
+    bool is_gone = false;        // all nodes are loose: the whole plant broke off
     double size = 0;             // longest side of the box around the nodes at rest [m]
     BlockPlan plan;
     std::vector<Attachment> chain;  // attachment of each chain node of a cage
