@@ -36,7 +36,7 @@ double parting_speed(double depth, double slop, double h, double share, double f
 
 // Overlaps with bodies are removed by velocities, as these have already moved: by so slow ones that nobody sees bodies
 // bounce that are deep in a stem after a fall, but faster from a kinematic body that is led.
-constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 0.1, FASTEST_LED = 1;  // [m], [-], [m/s]
+constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 0.1;  // [m], [-], [m/s]
 
 // Returns how fast sides that meet within the step must part by restitution; 0 below a speed at which nothing bounces.
 double rebound_speed(const Contact& contact, const Touch& touch, double h) {
@@ -79,10 +79,10 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
     // What a kinematic body has moved against in this step is to get out of its way at once.
-    const double lag = contact.other->isKinematicObject() ? row.contact_body.velocity.norm() : 0;
     row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
-                              : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST_LED + lag)
-                                               : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
+                              : is_carried_on(contact)
+                                  ? parting_speed(-contact.gap, SLOP, h, 1, fastest_from_led(contact))
+                                  : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
     if (row.touch.bias_velocity > 0) row.touch.bias_velocity *= contact.part_share;
     if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
         row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);

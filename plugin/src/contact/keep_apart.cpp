@@ -156,12 +156,12 @@ double behind(const Contact& contact, double h) {
 }
 
 // Has a contact ask for more where the plant's response, which is linear, leaves it in the way of a body, as long as
-// that helps: what the plant cannot do, a free body does. What overlaps already parts slowly, unless the body is led,
-// but comes no deeper. Links would turn what is asked beyond a linear response into spin.
+// that helps: what the plant cannot do, a free body does. Beyond what a led body parts in a step, what overlaps already
+// parts slowly, but comes no deeper. Links would turn what is asked beyond a linear response into spin.
 bool ask_for_more(Contact& contact, double h) {
-    const bool is_led = is_carried_on(contact);
     if (!btRigidBody::upcast(contact.other) || !has_step(*contact.plant)) return false;
-    const double now = behind(contact, h) + (is_led ? 0 : std::min(contact.gap, 0.0));
+    const double parts = is_carried_on(contact) ? h * fastest_from_led(contact) : 0;
+    const double now = behind(contact, h) + std::min(contact.gap + parts, 0.0);
     if (now < least_miss(*contact.plant, contact.capsule)) return false;
     return contact.shortfall.ask_for(now);
 }
@@ -170,6 +170,12 @@ bool ask_for_more(Contact& contact, double h) {
 
 bool is_carried_on(const Contact& contact) {
     return contact.other->isKinematicObject() && !velocity_at(*contact.other, contact.on_other).isZero(0);
+}
+
+double fastest_from_led(const Contact& contact) {
+    constexpr double SLOWEST = 1;  // [m/s]
+    const Vec3 velocity = velocity_at(*contact.other, contact.on_other);
+    return SLOWEST + (velocity.dot(contact.normal) < 0 ? 0 : velocity.norm());
 }
 
 double least_miss(const PlantBody& body, int capsule) {
