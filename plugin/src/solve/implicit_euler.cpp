@@ -49,7 +49,7 @@ bool step_implicit_euler(Workspace& workspace, const StepInput& input, SolveRepo
 }
 
 bool goes_on_rigidly(const System& system, const Motion& motion) {
-    return system.row->turns && !system.row->retract && is_loose(motion);
+    return system.row->turns && !system.row->retract && !system.is_gone && is_loose(motion);
 }
 
 bool takes_forces_ahead(const System& system, const SolveSettings& settings) {

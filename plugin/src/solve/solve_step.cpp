@@ -170,10 +170,6 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     const Integrator& method = integrator(settings.integrator);
     const bool goes_on = method.looks_back && history_holds(motion, settings.integrator, h);
     if (!goes_on && !(are_finite(motion.x) && are_finite(motion.v))) return report;  // after a step they are
-    if (workspace.system->is_gone) {
-        report.ok = true;
-        return report;
-    }
     prepare(workspace, input);
     prepare_damping(workspace, settings);
     motion.history.valid = goes_on;
