@@ -6,6 +6,8 @@
 // that fits its surface.
 #include "plant/seen.hpp"
 
+#include <algorithm>
+
 #include "mechanics/rotation.hpp"
 
 namespace frond {
@@ -117,6 +119,16 @@ VecX chain_rate(const Seen& seen) {
     return (seen.chain_moving - seen.chain) / SHORT;
 }
 
+// Returns the difference of the cage nodes' velocities. What shakes faster than by the plant's size a second would go
+// on by metres until it has blended out.
+static VecX change_of_velocities(const Plant& plant, const Seen& seen) {
+    constexpr double PER_SECOND = 1;  // [1/s]
+    VecX change = seen.velocities - cage_velocities(plant);
+    for (int i = 0; i < int(change.size()) / 3; i++)
+        point(change, i) *= std::min(1.0, PER_SECOND * double(plant.size) / (point(change, i).norm() + 1e-300));
+    return change;
+}
+
 void blend_from(Plant& plant, const Seen& seen) {
     end_blend(plant);
     const Motion& motion = plant.state.motion;
@@ -124,7 +136,7 @@ void blend_from(Plant& plant, const Seen& seen) {
     const VecX turns = turns_between(own_chain(plant, motion.x), seen.chain);
     const VecX later = turns_between(own_chain(plant, motion.x + SHORT * motion.v), seen.chain_moving);
     begin_blend_out(blend.turns, turns, (wound_as(turns, later) - turns) / SHORT);
-    begin_blend_out(blend.nodes, seen.places - cage_places(plant), seen.velocities - cage_velocities(plant));
+    begin_blend_out(blend.nodes, seen.places - cage_places(plant), change_of_velocities(plant, seen));
     const VecX left = seen.surface - surface_of(plant);
     begin_blend_out(blend.surface, left, VecX::Zero(left.size()));
     plant.view.cage_stale = plant.view.surface_stale = true;
