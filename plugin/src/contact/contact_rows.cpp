@@ -55,17 +55,17 @@ double mass_of(const PlantBody* body) {
 }
 
 // Returns the largest push of a contact [N s]. What is led has any force, and a plant gives way to none where it is
-// held: pressed at its foot it took 1e6 N s, and whatever else touched it as much in answer; under a car of 10 m/s a
-// stem was drawn out to 2.5 times its length. So a plant gets what brings all of it to the speed at which the two part,
-// and a multiple of what carries it and bends it by its size. At a share of its height, to bend it by that share of its
-// size takes one over the share squared as much; lower down it slides along the body, or the body goes through.
+// held: pressed at its foot it took 1e6 N s, and whatever else touched it as much in answer. So a chain gets what
+// brings all of it to the speed at which the two part, and a multiple of what carries it and bends it by its size.
+// Cages get any: once they are bent their linear response is stiffer than they are, and their pushes are solved as
+// forces.
 double most_push(const Contact& contact, const Touch& touch, double h) {
-    constexpr double LOWEST = 0.18;  // of its height [-]
+    constexpr double TIMES = 10;
     const Plant& plant = *contact.plant->plant;
-    if (!is_carried_on(contact)) return Touch::ANY_PUSH;
+    if (!plant.follow || !is_carried_on(contact)) return Touch::ANY_PUSH;
     const double faster = std::max(0.0, touch.bias_velocity - touch.velocity.dot(contact.normal));
     const double bending = squared(2 * PI * plant.sway) * double(plant.size);  // [m/s^2]
-    return mass_of(contact.plant) * (faster + (GRAVITY + bending) / squared(LOWEST) * h);
+    return mass_of(contact.plant) * (faster + TIMES * (GRAVITY + bending) * h);
 }
 
 // Adds the row of a contact with a body.
