@@ -14,7 +14,7 @@ namespace frond::stability {
 namespace {
 
 // Displacement in a step from which on kinematic bodies are known to pass rods, and to say so [m].
-constexpr double KNOWN = 0.07;
+constexpr double KNOWN = 0.2;
 // A plant of 1 m whose middle is met, from before it to behind it, and how long all is watched from there [m], [s].
 constexpr double TALL = 1, MEETS_AT = 0.487, BEFORE = 0.05, BEHIND = 0.2;
 constexpr double THIN = 0.005, LEAF_HALF_WIDTH = 0.03;

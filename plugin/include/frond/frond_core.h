@@ -81,7 +81,7 @@ enum {
 
 /* Counts of the last substep. Times are in frond_profile (frond_expert.h). */
 typedef struct frond_report {
-    uint32_t trouble;                       /* FROND_TROUBLE_* */
+    uint32_t trouble;                       /* FROND_TROUBLE_*, of all substeps of the last frond_world_step */
     int plant_count, node_count, tet_count; /* in the world */
     int solver_iterations;                  /* iterations of all plants; a direct solve counts as one */
     double residual;                        /* largest relative residual of a linear solve [-] */
@@ -114,7 +114,8 @@ FROND_API frond_result frond_world_create(const frond_world_def* def, frond_worl
 FROND_API void frond_world_destroy(frond_world world);
 /* Returns whether a handle is of a world that exists. */
 FROND_API bool frond_world_is_valid(frond_world world);
-/* Advances a world by exactly dt [s], 0..1, in equal substeps no longer than max_substep. The same calls give the same
+/* Advances a world by exactly dt [s], 0..1, in equal substeps no longer than max_substep, and up to four times as many
+ * where a kinematic body goes farther than 5 cm past a plant in one: it is led evenly. The same calls give the same
  * bits. UNSUPPORTED for a world that was attached: its owner steps it. A step in which memory runs out, or a function
  * of the host throws, is aborted: plants that had not completed it are put back to its start, and the next step goes on
  * from there. */

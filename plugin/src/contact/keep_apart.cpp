@@ -174,8 +174,7 @@ bool is_carried_on(const Contact& contact) {
 
 double fastest_from_led(const Contact& contact) {
     constexpr double SLOWEST = 1;  // [m/s]
-    const Vec3 velocity = velocity_at(*contact.other, contact.on_other);
-    return SLOWEST + (velocity.dot(contact.normal) < 0 ? 0 : velocity.norm());
+    return SLOWEST + std::max(0.0, velocity_at(*contact.other, contact.on_other).dot(contact.normal));
 }
 
 double least_miss(const PlantBody& body, int capsule) {

@@ -27,8 +27,8 @@ struct Missed {
 double least_miss(const PlantBody& body, int capsule);
 // Returns whether a kinematic body moves there. What rests in a plant parts from it slowly, as any other body.
 bool is_carried_on(const Contact& contact);
-// Returns how fast a plant parts at most from such a body that overlaps it, by its way in this step unless that leads
-// away from the plant, and by what is left of earlier ones [m/s].
+// Returns how fast a plant parts at most from such a body that overlaps it: by how far it came at the plant in this
+// step, and by what is left of earlier ones [m/s].
 double fastest_from_led(const Contact& contact);
 // Looks at the ways that watched plants went with the contacts that are known. Where strips, or bodies, went through
 // them, or nearly, it adds contacts or has those that are known ask for more.

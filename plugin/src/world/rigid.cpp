@@ -4,6 +4,7 @@
 
 #include "core/convert.hpp"
 #include "world/convert.hpp"
+#include "world/show.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -116,6 +117,24 @@ Leader::Leader(const World& world) {
         const btTransform &from = body.getInterpolationWorldTransform(), &to = body.getWorldTransform();
         if (body.isKinematicObject() && !(from == to)) bodies.push_back({&body, from, to});
     }
+}
+
+double Leader::way_past_plants(World& world) const {
+    double farthest = 0;
+    for (const Led& led : bodies) {
+        btVector3 lower, upper, to_lower, to_upper;
+        const btCollisionShape& shape = *led.body->getCollisionShape();
+        shape.getAabb(led.from, lower, upper);
+        shape.getAabb(led.to, to_lower, to_upper);
+        const btQuaternion turn = led.from.getRotation().inverse() * led.to.getRotation();
+        const double turns = 2 * double(btVector3(turn.x(), turn.y(), turn.z()).length());  // sines of half angles
+        const double way = double((led.to.getOrigin() - led.from.getOrigin()).length() +
+                                  btScalar(0.5 * turns) * (upper - lower).length());
+        lower.setMin(to_lower);
+        upper.setMax(to_upper);
+        if (way > farthest && !plants_in(world, lower, upper).empty()) farthest = way;
+    }
+    return farthest;
 }
 
 void Leader::lead(double share) const {

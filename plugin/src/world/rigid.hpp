@@ -51,6 +51,8 @@ public:
     Leader& operator=(const Leader&) = delete;
     // Puts each body at a share of its way.
     void lead(double share) const;
+    // Returns the farthest way of a body that may come past a plant [m].
+    double way_past_plants(World& world) const;
 
 private:
     struct Led {

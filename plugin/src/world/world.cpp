@@ -160,14 +160,28 @@ int number_of(World& world, PlantBody& body) {
     return body.number;
 }
 
+// Returns into how many substeps a step is divided: as many as its length takes, and more where a kinematic body goes
+// far past a plant. The response to contacts is linear within a substep: a stem that a car of 20 m/s met in one of 1/60
+// s was drawn out to 3.3 times its length, in four parts of that to 1.2.
+static int substeps_for(World& world, double dt, const Leader& leader) {
+    constexpr double FAR = 0.05;  // about the length of a segment [m]
+    constexpr double MOST = 4;    // parts of a substep
+    const double by_length = std::ceil(dt / world.max_substep - 1e-9);
+    if (by_length < 1) return 0;
+    return int(by_length * std::clamp(std::ceil(leader.way_past_plants(world) / (by_length * FAR)), 1.0, MOST));
+}
+
 void advance(World& world, double dt) {
-    const int substeps = int(std::ceil(dt / world.max_substep - 1e-9));
-    if (substeps > 0) limit_motors(world, dt / substeps);
     const Leader leader(world);
+    const int substeps = substeps_for(world, dt, leader);
+    if (substeps > 0) limit_motors(world, dt / substeps);
+    uint32_t trouble = 0;
     for (int i = 1; i <= substeps; i++) {
         leader.lead(double(i) / substeps);
         world.bullet->stepSimulation(btScalar(dt / substeps), 0);
+        trouble |= world.report.trouble;
     }
+    if (substeps > 0) world.report.trouble = trouble;
     for (PlantBody* body : world.awake) clear_user_force(*body->plant);
 }
 
