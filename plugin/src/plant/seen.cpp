@@ -6,8 +6,6 @@
 // that fits its surface.
 #include "plant/seen.hpp"
 
-#include <algorithm>
-
 #include "mechanics/rotation.hpp"
 
 namespace frond {
@@ -124,8 +122,9 @@ VecX chain_rate(const Seen& seen) {
 static VecX change_of_velocities(const Plant& plant, const Seen& seen) {
     constexpr double PER_SECOND = 1;  // [1/s]
     VecX change = seen.velocities - cage_velocities(plant);
+    const double most = PER_SECOND * double(plant.size);
     for (int i = 0; i < int(change.size()) / 3; i++)
-        point(change, i) *= std::min(1.0, PER_SECOND * double(plant.size) / (point(change, i).norm() + 1e-300));
+        if (const double speed = point(change, i).norm(); speed > most) point(change, i) *= most / speed;
     return change;
 }
 
