@@ -13,7 +13,7 @@ namespace frond::stability {
 
 namespace {
 
-// Displacement in a step from which on kinematic bodies are known to pass rods, and to say so [m].
+// Displacement in a step from which on kinematic bodies are known to pass, and to say so [m].
 constexpr double KNOWN = 0.2;
 // A plant of 1 m whose middle is met, from before it to behind it, and how long all is watched from there [m], [s].
 constexpr double TALL = 1, MEETS_AT = 0.487, BEFORE = 0.05, BEHIND = 0.2;
@@ -303,7 +303,7 @@ bool is_known_to_pass(const Sweep& sweep) {
         case Meeting::WALL:
         case Meeting::WIRE:
         case Meeting::PLATE:
-            return sweep.mechanics == FROND_MECHANICS_ROD && way > KNOWN;
+            return way > KNOWN;
         default:
             return false;
     }

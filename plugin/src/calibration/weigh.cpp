@@ -178,4 +178,15 @@ void give_mass(Model& model) {
         if (exact[o] > 0) model.organ_mass[o] = exact[o];
 }
 
+std::vector<double> borne_masses(const Model& model) {
+    std::vector<double> beyond = model.chain_mass, borne(model.organs.size(), 0.0);
+    for (size_t i = beyond.size(); i-- > 0;) {
+        const ChainNode& node = model.chain.nodes[i];
+        double& most = borne[size_t(std::max(node.organ, 0))];
+        most = std::max(most, beyond[i]);
+        if (node.parent >= 0) beyond[size_t(node.parent)] += beyond[i];
+    }
+    return borne;
+}
+
 }  // namespace frond

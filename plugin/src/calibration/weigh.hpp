@@ -25,4 +25,7 @@ std::vector<double> spread_over_capsules(const Model& model);
 // known exactly (stems) organs weigh what these say.
 void give_mass(Model& model);
 
+// Returns the largest mass that hangs on a capsule of each organ [kg].
+std::vector<double> borne_masses(const Model& model);
+
 }  // namespace frond

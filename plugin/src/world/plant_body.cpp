@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "batch/flat.hpp"
+#include "calibration/weigh.hpp"
 #include "collide/cover.hpp"
 #include "core/borrowed.hpp"
 #include "core/lanes.hpp"
@@ -91,6 +92,7 @@ static std::shared_ptr<Hull> hull_of(World& world, const Model& model) {
         hull->capsules.push_back(
             std::make_unique<btCapsuleShape>(btScalar(nodes[size_t(end)].radius), btScalar(height)));
     }
+    hull->organ_borne = borne_masses(model);
     add_plates(model, *hull);
     list_sizes(*hull);
     // Filled with all segments in place, the tree of their boxes is a good one.

@@ -34,6 +34,7 @@ struct Hull {
     std::vector<Flat> flats;                                 // one per capsule
     std::vector<std::unique_ptr<btConvexHullShape>> plates;  // plates of flat segments: x is wide, y along and z thin
     std::vector<int> plate_capsule;                          // capsule of each plate
+    std::vector<double> organ_borne;                         // largest mass that hangs on a capsule of each organ [kg]
     // Half heights and radii of capsules; half widths and lengths, and margins, of plates; padded for lanes [m].
     std::vector<double> capsule_halves, capsule_radii, plate_halves[2], plate_margins;
     std::vector<btTransform> modelled;      // frames of capsules, then of plates
