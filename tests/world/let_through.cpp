@@ -153,7 +153,7 @@ TEST(LetThrough, WhatHasPassedIsTouchedAgain) {
 
 // Plants fall asleep in a car that is parked there; when it has left and comes back, they touch it.
 TEST(LetThrough, IsForgottenInSleep) {
-    Crash crash(4);
+    Crash crash(3);
     while (crash.at.position.x < 1) crash.drive(SPEED);
     for (int i = 0; i < 60; i++) crash.drive(0);
     for (int i = 0; i < 3600 && crash.report().awake_count > 0; i++) crash.steps(1);

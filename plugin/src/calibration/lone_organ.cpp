@@ -6,6 +6,7 @@
 
 #include "cage/tet_geometry.hpp"
 #include "calibration/firm_tets.hpp"
+#include "calibration/weigh.hpp"
 
 namespace frond {
 namespace {
@@ -29,19 +30,13 @@ std::vector<int> organ_parents(const Model& model) {
     return parents;
 }
 
-// Returns the mass of each organ with all that it bears; a loop of organs bears only itself.
-std::vector<double> borne_masses(const Model& model, const std::vector<int>& parents) {
-    std::vector<double> own(model.organs.size(), 0.0);
+// Returns the mass of each organ's tets [kg].
+std::vector<double> tet_masses(const Model& model) {
+    std::vector<double> masses(model.organs.size(), 0.0);
     for (size_t e = 0; e < model.cage.tets.size(); e++)
-        own[size_t(model.cage.tet_organ[e])] += model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
-    std::vector<double> borne = own;
-    for (size_t o = 0; o < own.size(); o++) {
-        size_t steps = 0;
-        for (int above = parents[o]; above >= 0 && above != int(o) && steps < own.size();
-             above = parents[size_t(above)], steps++)
-            borne[size_t(above)] += own[o];
-    }
-    return borne;
+        masses[size_t(model.cage.tet_organ[e])] +=
+            model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
+    return masses;
 }
 
 std::vector<std::vector<int>> node_organs(const Cage& cage) {
@@ -156,7 +151,7 @@ bool LoneOrgan::is_sound() const {
 std::vector<LoneOrgan> take_organs(const Model& plant) {
     Tree tree;
     tree.parents = organ_parents(plant);
-    tree.borne = borne_masses(plant, tree.parents);
+    tree.borne = borne_masses(tet_masses(plant), tree.parents);
     tree.node_organs = node_organs(plant.cage);
     std::vector<LoneOrgan> organs;
     for (size_t o = 0; o < plant.organs.size(); o++) organs.push_back(take_organ(plant, int(o), tree));

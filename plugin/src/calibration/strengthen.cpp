@@ -75,6 +75,18 @@ void add_work_of_rods(const Model& model, const RodElements& all, frond_mechanic
     }
 }
 
+// Returns the largest mass that hangs on a capsule of each organ [kg].
+std::vector<double> borne_masses(const Model& model) {
+    std::vector<double> beyond = model.chain_mass, borne(model.organs.size(), 0.0);
+    for (size_t i = beyond.size(); i-- > 0;) {
+        const ChainNode& node = model.chain.nodes[i];
+        double& most = borne[size_t(std::max(node.organ, 0))];
+        most = std::max(most, beyond[i]);
+        if (node.parent >= 0) beyond[size_t(node.parent)] += beyond[i];
+    }
+    return borne;
+}
+
 }  // namespace
 
 void strengthen_rods(const Model& model, frond_mechanics which, const std::function<RodElements()>& make,

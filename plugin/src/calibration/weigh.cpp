@@ -178,13 +178,13 @@ void give_mass(Model& model) {
         if (exact[o] > 0) model.organ_mass[o] = exact[o];
 }
 
-std::vector<double> borne_masses(const Model& model) {
-    std::vector<double> beyond = model.chain_mass, borne(model.organs.size(), 0.0);
-    for (size_t i = beyond.size(); i-- > 0;) {
-        const ChainNode& node = model.chain.nodes[i];
-        double& most = borne[size_t(std::max(node.organ, 0))];
-        most = std::max(most, beyond[i]);
-        if (node.parent >= 0) beyond[size_t(node.parent)] += beyond[i];
+std::vector<double> borne_masses(const std::vector<double>& own, const std::vector<int>& parents) {
+    std::vector<double> borne = own;
+    for (size_t o = 0; o < own.size(); o++) {
+        size_t steps = 0;
+        for (int below = parents[o]; below >= 0 && below != int(o) && steps < own.size();
+             below = parents[size_t(below)], steps++)
+            borne[size_t(below)] += own[o];
     }
     return borne;
 }

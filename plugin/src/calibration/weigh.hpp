@@ -25,7 +25,8 @@ std::vector<double> spread_over_capsules(const Model& model);
 // known exactly (stems) organs weigh what these say.
 void give_mass(Model& model);
 
-// Returns the largest mass that hangs on a capsule of each organ [kg].
-std::vector<double> borne_masses(const Model& model);
+// Returns the mass of each organ with all that it bears, from their own masses and the organs that they grow out of; a
+// loop of organs bears only itself.
+std::vector<double> borne_masses(const std::vector<double>& own, const std::vector<int>& parents);
 
 }  // namespace frond

@@ -54,18 +54,17 @@ double mass_of(const PlantBody* body) {
     return node_mass_of(*body->plant->system).sum();
 }
 
-// Returns the largest push of a contact [N s]. A plant gives way to none where it is held, and what is led or heavy has
-// any force: a walker over a corn plant's foot drew its cage out 33 times. So a contact gets what brings all that its
-// organ bears to the speed at which the two part, and a multiple of what carries that and bends it by the plant's size;
-// what pushes harder goes through. Bent by a share of its height, a stem takes one over the share squared as much.
+// Returns the largest push of a contact [N s]. A plant gives way to none where it is held, and what plants do not move
+// has any force: a walker over a corn plant's foot drew its cage out 33 times. So a contact with such a body gets what
+// brings all that the organ bears to the speed at which the two part, and a multiple of what carries that and bends it
+// by the plant's size; what presses harder goes through.
 double most_push(const Contact& contact, const Touch& touch, double h) {
-    constexpr double LOWEST = 0.17;  // of its height, where a stem can still be bent over [-]
+    if (is_free(*contact.other) && !is_heavy(*contact.other, borne_at(*contact.plant, contact.capsule)))
+        return Touch::ANY_PUSH;
     const Plant& plant = *contact.plant->plant;
-    const int organ = plant.model->chain.nodes[size_t(plant.model->capsules[size_t(contact.capsule)][1])].organ;
-    const double mass = contact.plant->hull->organ_borne[size_t(std::max(organ, 0))];
     const double faster = std::max(0.0, touch.bias_velocity - touch.velocity.dot(contact.normal));
     const double bending = squared(2 * PI * plant.sway) * double(plant.size);  // [m/s^2]
-    return mass * (faster + (GRAVITY + bending) / squared(LOWEST) * h);
+    return borne_at(*contact.plant, contact.capsule) * (faster + MOST_LOAD * (GRAVITY + bending) * h);
 }
 
 // Adds the row of a contact with a body.

@@ -104,11 +104,13 @@ void group_bodies(World& world, double h, Groups& groups) {
         const bool is_pushed = is_free(*swept.object);
         const bool stands_still = !is_pushed && swept.motion.way.isZero(0) && swept.motion.turn.isZero(0);
         for (const Contact& contact : world.contacts)
-            if (is_pushed && contact.other == swept.object && pushes_back(world, *contact.plant))
+            if (is_pushed && contact.other == swept.object && pushes_back(world, *contact.plant) &&
+                !is_heavy(*swept.object, borne_at(*contact.plant, contact.capsule)))
                 groups.sets.join(contact.plant->number, member);
         find_hits_in_step(world, swept, h, any_plant, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), most = most_depth(body, hit), before = depth_before(hit);
-            const bool goes_along = is_pushed && pushes_back(world, body);
+            const bool goes_along =
+                is_pushed && pushes_back(world, body) && !is_heavy(*swept.object, borne_at(body, hit.capsule));
             if (!goes_along && !stands_still) {
                 if (after > radius_of(body, hit.capsule)) note_trouble(world, body, FROND_TROUBLE_PASSED);
                 return;

@@ -172,6 +172,10 @@ bool is_carried_on(const Contact& contact) {
     return contact.other->isKinematicObject() && !velocity_at(*contact.other, contact.on_other).isZero(0);
 }
 
+bool goes_on(const Contact& contact) {
+    return is_carried_on(contact) || is_heavy(*contact.other, borne_at(*contact.plant, contact.capsule));
+}
+
 double fastest_from_led(const Contact& contact) {
     constexpr double SLOWEST = 1;  // [m/s]
     return SLOWEST + std::max(0.0, velocity_at(*contact.other, contact.on_other).dot(contact.normal));
@@ -214,7 +218,7 @@ Missed add_missed_contacts(World& world, double PlantContact::*lacking, const An
 void tell_what_is_behind(World& world, double h, const Answers& answers) {
     // Beyond a stem's axis, a thin body is on its other side.
     for (const Contact& contact : world.contacts)
-        if (is_carried_on(contact) && has_step(*contact.plant) &&
+        if (goes_on(contact) && has_step(*contact.plant) &&
             behind(contact, h) > radius_of(*contact.plant, contact.capsule)) {
             note_trouble(world, *contact.plant, FROND_TROUBLE_PASSED);
             if (stands(*contact.plant, answers, Answer::last)) let_through(*contact.plant, *contact.other);

@@ -27,7 +27,9 @@ struct Missed {
 double least_miss(const PlantBody& body, int capsule);
 // Returns whether a kinematic body moves there. What rests in a plant parts from it slowly, as any other body.
 bool is_carried_on(const Contact& contact);
-// Returns how fast a plant parts at most from such a body that overlaps it: by how far it came at the plant in this
+// Returns whether a body goes on whatever the plant does: it is led there, or heavy.
+bool goes_on(const Contact& contact);
+// Returns how fast a plant parts at most from a led a body that overlaps it: by how far it came at the plant in this
 // step, and by what is left of earlier ones [m/s].
 double fastest_from_led(const Contact& contact);
 // Looks at the ways that watched plants went with the contacts that are known. Where strips, or bodies, went through
@@ -36,8 +38,8 @@ Missed find_missed_contacts(World& world, double h, const Answers& answers);
 // Does so where plants went through plants, or nearly. `lacking`: of what the contacts ask for more. Null: all plants
 // are looked at.
 Missed add_missed_contacts(World& world, double PlantContact::*lacking, const Answers* answers);
-// Reports plants that a kinematic body has come past, whatever was asked of their contacts. Those whose island gets no
-// more responses let it through.
+// Reports plants that a body that goes on has come past, whatever was asked of their contacts. Those whose island gets
+// no more responses let it through.
 void tell_what_is_behind(World& world, double h, const Answers& answers);
 // Returns the plants that go through bodies that move fast, or, if asked, through each other, on their ways in the
 // step; some twice.

@@ -185,8 +185,8 @@ void respond_again(World& world, const ResponseRow& response, double h, Waiting&
     });
     for (const size_t i : open) {
         const std::vector<Contact*>& contacts = islands[i].with_bodies;
-        const bool is_led = std::any_of(contacts.begin(), contacts.end(), [](Contact* c) { return is_carried_on(*c); });
-        const bool is_last = given[i].couplings > (is_led ? MOST_WITH_LED : MOST_COUPLINGS);
+        const bool any_goes_on = std::any_of(contacts.begin(), contacts.end(), [](Contact* c) { return goes_on(*c); });
+        const bool is_last = given[i].couplings > (any_goes_on ? MOST_WITH_LED : MOST_COUPLINGS);
         for (PlantBody* body : given[i].plants) {
             if (is_last) note_trouble(world, *body, FROND_TROUBLE_CROWDED);
             all.answers[size_t(body->number)] = is_last ? Answer::last : Answer::fresh;

@@ -92,7 +92,7 @@ static std::shared_ptr<Hull> hull_of(World& world, const Model& model) {
         hull->capsules.push_back(
             std::make_unique<btCapsuleShape>(btScalar(nodes[size_t(end)].radius), btScalar(height)));
     }
-    hull->organ_borne = borne_masses(model);
+    hull->organ_borne = borne_masses(model.organ_mass, model.organ_parents);
     add_plates(model, *hull);
     list_sizes(*hull);
     // Filled with all segments in place, the tree of their boxes is a good one.
@@ -104,6 +104,17 @@ static std::shared_ptr<Hull> hull_of(World& world, const Model& model) {
     place_pieces(*rest, *hull, {places.data(), model.capsules, frames});
     hull->rest = std::move(rest);
     return hull;
+}
+
+double borne_at(const PlantBody& body, int capsule) {
+    const Model& model = *body.plant->model;
+    const int organ = model.chain.nodes[size_t(model.capsules[size_t(capsule)][1])].organ;
+    return body.hull->organ_borne[size_t(std::max(organ, 0))];
+}
+
+bool is_heavy(const btCollisionObject& object, double borne) {
+    const btRigidBody* rigid = btRigidBody::upcast(&object);
+    return rigid && !object.isStaticOrKinematicObject() && 1 > MOST_LOAD * borne * double(rigid->getInvMass());
 }
 
 void share_shape(PlantBody& body) {
