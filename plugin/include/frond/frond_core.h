@@ -50,9 +50,9 @@ enum {
      * times as much and may damp. Remedy: a shorter time step, or gentler pushes. */
     FROND_TROUBLE_RETRIED = 1 << 3,
     /* Cause: a kinematic body moved against a plant so far in one step that it came to a stem's axis, or against where
-     * it is held, or pins moved by more than the plant's size. What is led, or weighs more than 34 times what an
-     * organ bears, pushes it with at most 34 times what carries and bends that, and what brings it to its speed.
-     * Effect: the body may pass through the stem; a plant goes along with its pins as a whole. Remedy: shorter steps. */
+     * it is held, or pins moved by more than the plant's size. What is led, or heavy, pushes an organ with at most 34
+     * times what carries and bends all that it bears, and what brings that to the body's speed. Effect: the body may
+     * pass through the stem; the plant goes along with its pins as a whole. Remedy: shorter steps. */
     FROND_TROUBLE_PASSED = 1 << 4,
     /* Cause: parts of plants, or free bodies, moved against each other or what stands still so fast, or were pressed so
      * hard, that no response kept them apart. Effect: they went only a part of the step's way, pins as well, so that
