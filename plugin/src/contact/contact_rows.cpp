@@ -59,8 +59,8 @@ double mass_of(const PlantBody* body) {
 // brings all that the organ bears to the speed at which the two part, and a multiple of what carries that and bends it
 // by the plant's size; what presses harder goes through.
 double most_push(const Contact& contact, const Touch& touch, double h) {
-    if (is_free(*contact.other) && !is_heavy(*contact.other, borne_at(*contact.plant, contact.capsule)))
-        return Touch::ANY_PUSH;
+    const bool is_pushed = is_free(*contact.other) || btMultiBodyLinkCollider::upcast(contact.other);
+    if (is_pushed && !is_heavy(*contact.other, borne_at(*contact.plant, contact.capsule))) return Touch::ANY_PUSH;
     const Plant& plant = *contact.plant->plant;
     const double faster = std::max(0.0, touch.bias_velocity - touch.velocity.dot(contact.normal));
     const double bending = squared(2 * PI * plant.sway) * double(plant.size);  // [m/s^2]
