@@ -1,6 +1,7 @@
 // Lengths of what is drawn of a plant.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -17,6 +18,14 @@ inline std::vector<double> capsule_lengths(frond_plant plant) {
     for (const auto& [begin, end, radius] : capsules)
         lengths.push_back(std::hypot(end.x - begin.x, end.y - begin.y, end.z - begin.z));
     return lengths;
+}
+
+// Returns how far a plant's capsules are drawn out at most: their lengths now over their own ones [-].
+inline double most_drawn_out(frond_plant plant, const std::vector<double>& own) {
+    const std::vector<double> now = capsule_lengths(plant);
+    double most = 0;
+    for (size_t i = 0; i < now.size(); i++) most = std::max(most, now[i] / own[i]);
+    return most;
 }
 
 // Returns the lengths of the edges of a plant's surface, three a triangle [m].

@@ -14,6 +14,7 @@ namespace breeze_tests {
 
 using frond::test::capsule_lengths;
 using frond::test::edge_lengths;
+using frond::test::most_drawn_out;
 
 struct Breeze {
     const char* plant;
@@ -84,12 +85,7 @@ TEST_P(EveryBreeze, LeavesSegmentsTheirLengthsAndThePlantUpright) {
     ASSERT_EQ(frond_model_load(path.c_str(), &model_def, &model), FROND_OK) << frond_last_error();
     ASSERT_EQ(frond_plant_create(world, model, &def, &plant), FROND_OK) << frond_last_error();
     const std::vector<double> modelled = capsule_lengths(plant);
-    const auto longest = [&] {
-        const std::vector<double> now = capsule_lengths(plant);
-        double most = 0;
-        for (size_t i = 0; i < now.size(); i++) most = std::max(most, now[i] / modelled[i]);
-        return most;
-    };
+    const auto longest = [&] { return most_drawn_out(plant, modelled); };
     const Edges edges(plant);
     double torn = 0;
     frond_vec3 before, after;

@@ -12,6 +12,7 @@ namespace detail_lengths_tests {
 
 using frond::test::capsule_lengths;
 using frond::test::edge_lengths;
+using frond::test::most_drawn_out;
 using frond::test::must;
 using frond::test::Stand;
 
@@ -46,8 +47,7 @@ TEST_P(Speeds, AreHandedOverWithoutDrawingCapsulesOut) {
         frond_detail now = {};
         must(frond_plant_get_detail(plant, &now));
         modal_steps += now == FROND_DETAIL_MODAL;
-        const std::vector<double> lengths = capsule_lengths(plant);
-        for (size_t k = 0; k < own.size(); k++) most = std::max(most, lengths[k] / own[k]);
+        most = std::max(most, most_drawn_out(plant, own));
     }
     EXPECT_GT(modal_steps, 100);
     EXPECT_LT(most, 1.02);

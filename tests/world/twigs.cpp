@@ -45,8 +45,7 @@ double most_stretch(const Twig& twig, frond_integrator integrator, double h) {
         must(frond_plant_add_force(plant, frond_plant_get_node_count(plant) - 1,
                                    {twig.force.x(), twig.force.y(), twig.force.z()}));
         stand.steps(1);
-        const std::vector<double> after = capsule_lengths(plant);
-        for (size_t k = 0; k < after.size(); k++) most = std::max(most, after[k] / before[k] - 1);
+        most = std::max(most, most_drawn_out(plant, before) - 1);
     }
     return most;
 }

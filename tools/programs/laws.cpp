@@ -140,12 +140,9 @@ void Laws::check_lengths(const Standing& plant, const Loads& loads, bool is_touc
     for (size_t i = 0; i < capsules.size(); i++)
         most = std::max(most, length(capsules[i].end - capsules[i].begin) / plant.lengths[i]);
     const bool may_give = is_touched || plant.def.mechanics == FROND_MECHANICS_SPRING_CHAIN;
+    const double allowed = !moves_chain(plant) ? CAGE : may_give ? LOADED : FREE;
     // A sudden force draws out by twice what it does at rest.
-    expect(Law::STRETCH, "a capsule's length over its own", most,
-           (!moves_chain(plant) ? CAGE
-            : may_give          ? LOADED
-                                : FREE) +
-               2 * loads.force / plant.strength);
+    expect(Law::STRETCH, "a capsule's length over its own", most, allowed + 2 * loads.force / plant.strength);
 }
 
 // What was dissipated may fall by the ledger's error, by a twentieth of what went through the plants, and by what lifts

@@ -60,7 +60,7 @@ enum {
     FROND_TROUBLE_HELD_BACK = 1 << 5,
     /* Cause: a plant had more than 100 contacts with plants, as where cages were made in each other, or so much crossed
      * within a step that no response could account for all of it. Effect: the deepest 100 contacts push, or those that
-     * meet first; a kinematic body that crowds plants goes through them, untouched until their boxes are apart. Remedy:
+     * meet first; a body, led or heavy, that crowds plants goes through, untouched until their boxes are apart. Remedy:
      * FROND_COLLISION_ORGANS, which touches at fewer places; shorter steps; a slower or smaller body. */
     FROND_TROUBLE_CROWDED = 1 << 6,
     /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
@@ -81,7 +81,7 @@ enum {
 
 /* Counts of the last substep. Times are in frond_profile (frond_expert.h). */
 typedef struct frond_report {
-    uint32_t trouble;                       /* FROND_TROUBLE_*, of all substeps of the last frond_world_step */
+    uint32_t trouble;                       /* FROND_TROUBLE_*, of all substeps of a step; attached: of the last */
     int plant_count, node_count, tet_count; /* in the world */
     int solver_iterations;                  /* iterations of all plants; a direct solve counts as one */
     double residual;                        /* largest relative residual of a linear solve [-] */

@@ -172,8 +172,12 @@ bool is_carried_on(const Contact& contact) {
     return contact.other->isKinematicObject() && !velocity_at(*contact.other, contact.on_other).isZero(0);
 }
 
+bool is_heavy(const btCollisionObject& object, double borne) {
+    return is_free(object) && 1 > MOST_LOAD * borne * double(btRigidBody::upcast(&object)->getInvMass());
+}
+
 bool goes_on(const Contact& contact) {
-    return is_carried_on(contact) || is_heavy(*contact.other, borne_at(*contact.plant, contact.capsule));
+    return is_carried_on(contact) || is_heavy(*contact.other, contact.plant->plant->model->mass());
 }
 
 double fastest_from_led(const Contact& contact) {

@@ -27,9 +27,14 @@ struct Missed {
 double least_miss(const PlantBody& body, int capsule);
 // Returns whether a kinematic body moves there. What rests in a plant parts from it slowly, as any other body.
 bool is_carried_on(const Contact& contact);
-// Returns whether a body goes on whatever the plant does: it is led there, or heavy.
+// Most that a body pushes an organ with, over what carries and bends all that the organ bears: as much as bends a stem
+// over at 0.17 of its height, by one over the square of that [-].
+constexpr double MOST_LOAD = 34;
+// Returns whether a free body weighs more than what bears a mass [kg] is pushed with: nothing that it does stops it.
+bool is_heavy(const btCollisionObject& object, double borne);
+// Returns whether a body goes on whatever the plant does: it is led there, or heavy for the plant as a whole.
 bool goes_on(const Contact& contact);
-// Returns how fast a plant parts at most from a led a body that overlaps it: by how far it came at the plant in this
+// Returns how fast a plant parts at most from a led body that overlaps it: by how far it came at the plant in this
 // step, and by what is left of earlier ones [m/s].
 double fastest_from_led(const Contact& contact);
 // Looks at the ways that watched plants went with the contacts that are known. Where strips, or bodies, went through

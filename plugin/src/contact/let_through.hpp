@@ -1,5 +1,5 @@
-// Plants let a kinematic body through that crowds them more than a step can answer: they touch it no more until their
-// boxes in the broad phase are apart.
+// Plants let a kinematic or heavy body through that crowds them more than a step can answer: they touch it no more
+// until their boxes in the broad phase are apart.
 #pragma once
 
 #include "world/world.hpp"

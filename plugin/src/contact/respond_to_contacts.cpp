@@ -119,7 +119,7 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
 }
 
 // Couplings of an island after which it gets no more responses in a step, which take as long as there are couplings;
-// fewer where plants can let kinematic bodies through.
+// fewer where plants can let a body through.
 constexpr double MOST_COUPLINGS = 5e5, MOST_WITH_LED = 1e5;
 
 // The responses of a step, island by island.

@@ -112,11 +112,6 @@ double borne_at(const PlantBody& body, int capsule) {
     return body.hull->organ_borne[size_t(std::max(organ, 0))];
 }
 
-bool is_heavy(const btCollisionObject& object, double borne) {
-    const btRigidBody* rigid = btRigidBody::upcast(&object);
-    return rigid && !object.isStaticOrKinematicObject() && 1 > MOST_LOAD * borne * double(rigid->getInvMass());
-}
-
 void share_shape(PlantBody& body) {
     btCollisionShape*& shape = body.shape();
     if (shape == body.hull->rest.get()) return;

@@ -112,14 +112,8 @@ inline bool has_step(const PlantBody& body) {
 inline bool awaits_contacts(const PlantBody& body) {
     return has_step(body) && waits(*body.plant);
 }
-// Most that a body pushes an organ with, over what carries and bends all that the organ bears: as much as bends a stem
-// over at 0.17 of its height, by one over the square of that [-].
-constexpr double MOST_LOAD = 34;
 // Returns the mass that the organ of a capsule bears, its own included [kg].
 double borne_at(const PlantBody& body, int capsule);
-// Returns whether a free body weighs more than organs that bear a mass [kg] may be pushed with: nothing that they do
-// stops it.
-bool is_heavy(const btCollisionObject& object, double borne);
 // Returns whether the object is an infinite plane.
 bool is_plane(const btCollisionObject& object);
 // Forgets a plant whose object the host deletes.
