@@ -204,7 +204,12 @@ TEST(Chain, StandsOnItsPot) {
     EXPECT_NEAR(grown.chain.nodes[0].position.y(), -0.2, 0.01);
 }
 
-TEST(Chain, OfATiedStemGrowsOutOfTheStakeWhereItIsTied) {
+// Ties share corners with stem and stake, or have meshes of their own beside them.
+class TiedChain : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Ties, TiedChain, testing::Bool());
+
+TEST_P(TiedChain, GrowsOutOfTheStakeWhereTheStemIsTied) {
+    const bool is_loose = GetParam();
     Sketch sketch;
     sketch.begin_part("stake");
     const int stake = sketch.tube(line({0, 0, 0}, {0, 1, 0}, 20), 0.01, 6);
@@ -214,7 +219,10 @@ TEST(Chain, OfATiedStemGrowsOutOfTheStakeWhereItIsTied) {
     for (const double height : heights) {
         const int corner = 6 * int(std::lround(height / 0.05));
         sketch.begin_part("tie");
-        sketch.triangle(stake + corner, stem + corner, sketch.add({0.015, height, 0.02}));
+        int ends[] = {stake + corner, stem + corner};
+        if (is_loose)
+            for (int& end : ends) end = sketch.add(sketch.surface.positions[size_t(end)] + Vec3(0, 5e-4, 0));
+        sketch.triangle(ends[0], ends[1], sketch.add({0.015, height, 0.02}));
     }
     const Grown grown = grow(sketch, {0.1, 0});
     expect_forest(grown);
@@ -227,6 +235,13 @@ TEST(Chain, OfATiedStemGrowsOutOfTheStakeWhereItIsTied) {
     }
     ASSERT_EQ(carried.size(), heights.size());
     for (size_t i = 0; i < heights.size(); i++) EXPECT_NEAR(carried[i], heights[i], 0.1);
+    // The stem goes on across each tie.
+    ASSERT_EQ(grown.chain.loops.size(), heights.size());
+    for (const auto& [below, above] : grown.chain.loops) {
+        const Vec3 &from = grown.chain.nodes[size_t(below)].position, &to = grown.chain.nodes[size_t(above)].position;
+        for (const Vec3& place : {from, to}) EXPECT_NEAR(place.x(), 0.03, 1e-3);
+        EXPECT_NEAR(to.y() - from.y(), 0.1, 0.02);
+    }
 }
 
 TEST(Chain, KeepsTheRadiusThatIsGiven) {

@@ -106,6 +106,8 @@ std::shared_ptr<const Model> with_cut_capsules(const Model& model, int parts) {
         out->sections.push_back(model.sections[i]);
         out->chain_mass.push_back(model.chain_mass[i]);
     }
+    for (const ChainLoop& loop : model.chain.loops)
+        out->chain.loops.push_back({nodes[size_t(loop.below)], nodes[size_t(loop.above)]});
     for (double& mass : out->chain_mass) mass = std::max(mass, 0.0);
     return out;
 }

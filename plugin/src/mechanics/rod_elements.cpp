@@ -2,7 +2,8 @@
 //
 // A tree of rods is statically determinate: forces and moments in it follow from the weight alone, summed from the tips
 // to the root. So the shape without load, which weight bends to the modelled shape, needs no search: each segment's
-// rest strain and curvature are those of the modelled shape minus those by its force and moment.
+// rest strain and curvature are those of the modelled shape minus those by its force and moment. What closes loops
+// beside the tree bears nothing as modelled.
 #include "mechanics/rod_elements.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ size_t organ_of(const Model& model, size_t node) {
 void take_section(const Model& model, size_t node, RodSegment& rod) {
     const Section& section = model.sections[node];
     const double stiffer = model.organ_stiffer[organ_of(model, node)];
-    const double over = section.tilting_per_bending();
+    const double lengths = section.length / rod.length, over = lengths * lengths * section.tilting_per_bending();
     const double thin = stiffer * section.bending_thin(), wide = stiffer * section.bending_wide();
     rod.reach_thin = 0.5 * section.thickness;
     rod.reach_wide = 0.5 * section.width;
@@ -47,20 +48,32 @@ void take_cylinder(const Model& model, size_t node, double radius, double stiffe
     rod.bend = E * Vec3(inertia / (1 + material.poisson), inertia, inertia);
 }
 
-// Makes a segment without its stiffness.
-RodSegment make_segment(const Model& model, size_t node) {
-    const Section& section = model.sections[node];
+// Makes a segment without its stiffness, whose thin side is towards `thin`.
+RodSegment make_segment(const Model& model, int a, int b, double length, const Vec3& axis, const Vec3& thin) {
     RodSegment rod = {};
-    rod.a = model.chain.nodes[node].parent;
-    rod.b = int(node);
-    rod.length = section.length;
-    rod.frame.col(0) = section.axis;
-    rod.frame.col(1) = (section.thin - section.axis * section.axis.dot(section.thin)).normalized();
+    rod.a = a;
+    rod.b = b;
+    rod.length = length;
+    rod.frame.col(0) = axis;
+    rod.frame.col(1) = (thin - axis * axis.dot(thin)).normalized();
     rod.frame.col(2) = rod.frame.col(0).cross(rod.frame.col(1));
-    const Vec3 chord = model.chain.nodes[node].position - model.chain.nodes[size_t(rod.a)].position;
+    const Vec3 chord = model.chain.nodes[size_t(b)].position - model.chain.nodes[size_t(a)].position;
     rod.rest_strain = rod.frame.transpose() * chord / rod.length;
     rod.rest_curvature.setZero();
     give_set(rod, Vec3::Zero());
+    return rod;
+}
+
+// Makes a segment from below a tie to what is above, likewise.
+RodSegment make_closing_segment(const Model& model, const ChainLoop& loop) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    const Section& section = model.sections[size_t(loop.below)];
+    const Vec3 way = nodes[size_t(loop.above)].position - nodes[size_t(loop.below)].position;
+    const Vec3 axis = way.normalized();
+    const bool is_along = std::abs(axis.dot(section.thin)) > 0.99 * section.thin.norm();
+    RodSegment rod =
+        make_segment(model, loop.below, loop.above, way.norm(), axis, is_along ? section.axis : section.thin);
+    rod.closes_loop = true;
     return rod;
 }
 
@@ -125,6 +138,7 @@ void let_stand(RodElements& elements) {
     for (size_t i = 0; i < count; ++i) force[i] = Vec3(0, -GRAVITY * elements.mass[i], 0);
     for (size_t s = elements.segments.size(); s-- > 0;) {
         RodSegment& rod = elements.segments[s];
+        if (rod.closes_loop) continue;
         const size_t a = size_t(rod.a), b = size_t(rod.b);
         const Vec3 chord = point(elements.modelled, 2 * rod.b) - point(elements.modelled, 2 * rod.a);
         const Vec3 from_end = force[b].cross(chord);
@@ -137,8 +151,9 @@ void let_stand(RodElements& elements) {
     }
 }
 
-bool is_tie(const Model& model, const RodSegment& rod) {
-    return model.chain.nodes[size_t(rod.b)].parent < 0;
+// Returns whether a segment is a capsule of the chain, neither a tie nor what closes a loop.
+bool is_capsule(const Model& model, const RodSegment& rod) {
+    return !rod.closes_loop && model.chain.nodes[size_t(rod.b)].parent >= 0;
 }
 
 // Adds each segment's rotary inertia, by its section, to its ends; nodes have at least that of a small ball.
@@ -149,7 +164,7 @@ void set_inertia(const Model& model, RodElements& elements) {
         elements.inertia.push_back(0.01 * elements.mass[i] * r * r * Mat3::Identity());
     }
     for (const RodSegment& rod : elements.segments) {
-        if (is_tie(model, rod)) continue;
+        if (!is_capsule(model, rod)) continue;
         const Section& section = model.sections[size_t(rod.b)];
         const Mat3 whole = rod.frame * Vec3(rod.length * section.rotary_inertia()).asDiagonal() * rod.frame.transpose();
         elements.inertia[size_t(rod.a)] += (1 - section.inertia_at_end()) * whole;
@@ -164,12 +179,12 @@ void share_mass(const Model& model, RodElements& elements) {
     const auto at_end = [&](const RodSegment& rod) { return model.sections[size_t(rod.b)].mass_at_end(); };
     const auto whole = [&](const RodSegment& rod) { return model.sections[size_t(rod.b)].mass() * rod.length; };
     for (const RodSegment& rod : elements.segments) {
-        if (is_tie(model, rod)) continue;
+        if (!is_capsule(model, rod)) continue;
         by_sections[size_t(rod.a)] += (1 - at_end(rod)) * whole(rod);
         by_sections[size_t(rod.b)] += at_end(rod) * whole(rod);
     }
     for (RodSegment& rod : elements.segments) {
-        if (is_tie(model, rod)) continue;
+        if (!is_capsule(model, rod)) continue;
         const size_t a = size_t(rod.a), b = size_t(rod.b);
         const double factor = std::min(elements.mass[a] / by_sections[a], elements.mass[b] / by_sections[b]);
         rod.shared_mass = (1 - at_end(rod)) * at_end(rod) * factor * whole(rod) / 3;
@@ -192,22 +207,27 @@ RodElements make_elements(const Model& model, Take&& take) {
 
     const std::vector<int> ties = find_ties(model);
     std::vector<Tet> pairs;
+    const auto add = [&](size_t section, RodSegment rod) {
+        take(section, rod);
+        check_segment(rod);
+        out.segments.push_back(rod);
+    };
     for (size_t i = 0; i < nodes.size(); ++i) {
         const int b = int(i);
         if (nodes[i].parent >= 0) {
-            out.segments.push_back(make_segment(model, i));
-            take(i, out.segments.back());
-            check_segment(out.segments.back());
+            const Section& section = model.sections[i];
+            add(i, make_segment(model, nodes[i].parent, b, section.length, section.axis, section.thin));
         }
         pairs.push_back({2 * b, 2 * b + 1, 2 * b, 2 * b + 1});
     }
+    for (const ChainLoop& loop : model.chain.loops) add(size_t(loop.below), make_closing_segment(model, loop));
     for (size_t i = 0; i < nodes.size(); ++i)
         if (ties[i] >= 0) out.segments.push_back(make_tie(model, ties[i], int(i), out.segments));
-    std::sort(out.segments.begin(), out.segments.end(), [](const auto& p, const auto& q) { return p.b < q.b; });
+    std::stable_sort(out.segments.begin(), out.segments.end(), [](const auto& p, const auto& q) { return p.b < q.b; });
     for (const RodSegment& rod : out.segments) {
         pairs.push_back({2 * rod.a, 2 * rod.a + 1, 2 * rod.b, 2 * rod.b + 1});
-        out.damping_ratio.push_back(model.organs[organ_of(model, size_t(rod.b))].material.damping_ratio);
-        out.section.push_back(rod.b);
+        out.section.push_back(rod.closes_loop ? rod.a : rod.b);
+        out.damping_ratio.push_back(model.organs[organ_of(model, size_t(out.section.back()))].material.damping_ratio);
     }
     out.pattern = make_block_pattern(out.node_count, pairs);
     for (RodSegment& rod : out.segments) {

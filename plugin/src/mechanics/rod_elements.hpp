@@ -9,6 +9,7 @@ namespace frond {
 // A beam from chain node a to b. Its frame has the columns axis, thin, wide: it bends most easily towards `thin`.
 struct RodSegment {
     int a, b;             // chain nodes, a < b
+    bool closes_loop;     // see ChainLoop; the others are a forest, each node the second of one at most
     double length;        // length at rest [m]
     Mat3 frame;           // axis, thin and wide in the modelled shape
     Vec3 stretch;         // stiffness against stretch and against shear towards thin and wide [N]

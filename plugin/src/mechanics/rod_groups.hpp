@@ -57,10 +57,11 @@ struct PiecesOfOne {
             }
         }
     }
-    // Places second ends by chords from the first ones, lane by lane; held nodes, one flag a node, stay.
+    // Places second ends by chords from the first ones, lane by lane, but where a loop closes; held nodes, one flag a
+    // node, stay.
     FROND_INLINE void put_second_ends(const Lanes3<S>& chord, const std::vector<uint8_t>& held, double* x) const {
         for (int lane = 0; lane < count; ++lane) {
-            if (held[size_t(2 * rod[lane]->b)]) continue;
+            if (rod[lane]->closes_loop || held[size_t(2 * rod[lane]->b)]) continue;
             const double *a = x + 6 * rod[lane]->a, by[] = {chord.x[lane], chord.y[lane], chord.z[lane]};
             for (int k = 0; k < 3; ++k) x[6 * rod[lane]->b + k] = a[k] + by[k];
         }
@@ -112,7 +113,7 @@ struct PieceOfSeveral {
         from(6 * rod.b, g.place_b), from(6 * rod.b + 3, g.turn_b);
     }
     FROND_INLINE void put_second_ends(const Lanes3<S>& chord, const std::vector<uint8_t>& held, double* x) const {
-        if (!held[size_t(2 * rod.b)]) store3(load3<S>(x, 6 * rod.a) + chord, x, 6 * rod.b);
+        if (!rod.closes_loop && !held[size_t(2 * rod.b)]) store3(load3<S>(x, 6 * rod.a) + chord, x, 6 * rod.b);
     }
     // Adds to blocks that are filled, and overwrites the others.
     FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, BlockMatrix& A,

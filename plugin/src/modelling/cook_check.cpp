@@ -140,6 +140,10 @@ void check_chain(const Model& model) {
         need((node.position - chain.nodes[size_t(node.parent)].position).norm() > 0, "a capsule has no length");
         check_section(model.sections[i]);
     }
+    for (const auto& [below, above] : chain.loops)
+        need(is_index(above, count) && below >= 0 && below < above && chain.nodes[size_t(below)].parent >= 0 &&
+                 chain.nodes[size_t(below)].position != chain.nodes[size_t(above)].position,
+             "a loop of the chain has no ends");
     need(chain.vertex_node.size() == vertices && chain.vertex_capsule.size() == vertices &&
              chain.vertex_along.size() == vertices,
          "its chain is of another surface");

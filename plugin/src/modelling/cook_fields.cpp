@@ -32,9 +32,14 @@ static void visit(Archive& a, ChainNode& node) {
     a(position, radius, parent, organ, distance, fitted_radius);
 }
 
+static void visit(Archive& a, ChainLoop& loop) {
+    auto& [below, above] = loop;
+    a(below, above);
+}
+
 static void visit(Archive& a, Chain& chain) {
-    auto& [nodes, vertex_node, vertex_capsule, vertex_along, rib_of, height] = chain;
-    a(nodes, vertex_node, vertex_capsule, vertex_along, rib_of, height);
+    auto& [nodes, loops, vertex_node, vertex_capsule, vertex_along, rib_of, height] = chain;
+    a(nodes, loops, vertex_node, vertex_capsule, vertex_along, rib_of, height);
 }
 
 static void visit(Archive& a, Section& section) {

@@ -43,7 +43,8 @@ std::vector<SectionForce> section_forces(const Plant& plant) {
     const RodElements& elements = as_rods(elements_of(plant));
     const std::vector<RodSectionForce> of_segment = rod_section_forces(elements, plant.state.motion.x);
     std::vector<int> segment_of(plant.model->chain.nodes.size(), -1);
-    for (size_t s = 0; s < of_segment.size(); s++) segment_of[size_t(elements.section[s])] = int(s);
+    for (size_t s = 0; s < of_segment.size(); s++)
+        if (!elements.segments[s].closes_loop) segment_of[size_t(elements.segments[s].b)] = int(s);
     std::vector<SectionForce> forces;
     for (const auto& [begin, end] : plant.model->capsules) {
         SectionForce force = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};

@@ -38,8 +38,10 @@ Skin make_skin(const Model& model) {
     for (size_t i = 0; i < chain.nodes.size(); ++i) {
         const int parent = chain.nodes[i].parent;
         skin.parents.push_back(parent < 0 ? int(i) : parent);
-        skin.axes.push_back(chain.nodes[i].position - chain.nodes[size_t(skin.parents.back())].position);
     }
+    for (const ChainLoop& loop : chain.loops) skin.parents[size_t(loop.above)] = loop.below;
+    for (size_t i = 0; i < chain.nodes.size(); ++i)
+        skin.axes.push_back(chain.nodes[i].position - chain.nodes[size_t(skin.parents[i])].position);
     for (size_t v = 0; v < chain.vertex_capsule.size(); ++v) {
         const int node = chain.vertex_capsule[v];
         const double along = chain.vertex_along[v];

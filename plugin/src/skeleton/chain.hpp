@@ -15,8 +15,15 @@ struct ChainNode {
     double fitted_radius;  // radius fitted to the shape, whatever was given [m]
 };
 
+// A stem that is tied to a support grows out of that, so the tree has no capsule from its node below the tie to the
+// later one above, where it goes on all the same.
+struct ChainLoop {
+    int below, above;
+};
+
 struct Chain {
     std::vector<ChainNode> nodes;
+    std::vector<ChainLoop> loops;
     std::vector<int> vertex_node;  // surface vertex -> nearest chain node along the surface
     // Surface vertex -> chain node at the end of its capsule, and its share of the way along that: 0 where the surface
     // meets the capsule before, 1 where it meets the next ones. A root without a capsule of its own stands for itself.

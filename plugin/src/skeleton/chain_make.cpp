@@ -13,6 +13,7 @@
 #include "skeleton/chain.hpp"
 #include "skeleton/chain_bind.hpp"
 #include "skeleton/chain_ribs.hpp"
+#include "skeleton/chain_ties.hpp"
 #include "skeleton/chain_tree.hpp"
 
 namespace frond {
@@ -43,6 +44,7 @@ struct Shape {
     std::vector<int> group, organ;  // group and organ of each triangle
     std::vector<SharedEdge> edges;
     std::vector<int> roots;        // points
+    std::vector<Joint> ties;       // see find_ties()
     std::vector<double> distance;  // distances of points [m]
     double farthest;               // [m]
 };
@@ -136,6 +138,17 @@ void make_nodes(Maker& maker) {
     }
 }
 
+// Closes the loops of stems and supports.
+void close_loops(Maker& maker) {
+    const std::vector<ChainNode>& nodes = maker.chain.nodes;
+    for (const SlabLink& link : links_beside_ties(maker.bands, maker.tree)) {
+        const int below = maker.slabs.node[size_t(link.low)], above = maker.slabs.node[size_t(link.high)];
+        if (nodes[size_t(below)].parent < 0 || below >= above || nodes[size_t(above)].parent == below) continue;
+        if ((nodes[size_t(above)].position - nodes[size_t(below)].position).norm() > SHORT_PIECE * maker.bands.height)
+            maker.chain.loops.push_back({below, above});
+    }
+}
+
 // Gives a chain that has only feet, and so cannot bend, one capsule: to the point farthest from the first foot.
 void add_last_resort(Maker& maker) {
     for (const ChainNode& node : maker.chain.nodes)
@@ -186,12 +199,13 @@ bool parents_come_first(const Chain& chain) {
 // Makes the chain for one height. Larger loose parts than usual are dropped while there are more than `most` capsules.
 Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, double height, double radius, int most) {
     const Bands bands = cut_bands(shape.topology, shape.edges, shape.distance, shape.group, shape.organ, height);
-    const ChainTree grown = grow_tree(shape.topology, bands, shape.roots);
+    const ChainTree grown = grow_tree(shape.topology, bands, shape.roots, shape.ties);
     for (const double loose : LOOSE) {
         ChainTree tree = grown;
         prune_tree(bands, tree, loose);
         Maker maker{shape, bands, tree};
         make_nodes(maker);
+        close_loops(maker);
         const int capsules = int(maker.chain.nodes.size()) - maker.chain.root_count();
         if (capsules > most && loose != LOOSE.back()) continue;
         add_last_resort(maker);
@@ -208,7 +222,7 @@ Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, dou
 
 Shape measure_shape(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
                     const std::vector<int>& rooted) {
-    Shape shape{surface, topology, {}, {}, {}, {}, {}, 0};
+    Shape shape{surface, topology, {}, {}, {}, {}, find_ties(surface, topology, organs), {}, 0};
     shape.group.assign(topology.triangles.size(), 0);
     shape.organ.assign(topology.triangles.size(), -1);
     for (const Part& part : surface.parts) {

@@ -51,11 +51,12 @@ double distance_at(const Topology& topology, const Bands& bands, int triangle, c
     return da + wb * (db - da) + wc * (dc - da) - bands.entry[size_t(topology.triangle_component[size_t(triangle)])];
 }
 
-void add_joints(const Topology& topology, const Bands& bands, std::vector<SlabLink>& links) {
-    for (const Joint& joint : topology.joints) {
+void add_joints(const Topology& topology, const Bands& bands, const std::vector<Joint>& joints, double length,
+                std::vector<SlabLink>& links) {
+    for (const Joint& joint : joints) {
         const int a = bands.piece_at(joint.triangle_a, distance_at(topology, bands, joint.triangle_a, joint.point_a));
         const int b = bands.piece_at(joint.triangle_b, distance_at(topology, bands, joint.triangle_b, joint.point_b));
-        links.push_back({a, b, -1, 0.5 * (joint.point_a + joint.point_b), false});
+        links.push_back({a, b, length, 0.5 * (joint.point_a + joint.point_b), false});
     }
 }
 
@@ -121,11 +122,13 @@ Vec3 end_of(const Bands& bands, const ChainTree& tree, const Around& around, int
 
 }  // namespace
 
-ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vector<int>& roots) {
+ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vector<int>& roots,
+                    const std::vector<Joint>& ties) {
     ChainTree tree;
     const size_t count = bands.pieces.size();
     tree.links = bands.links;
-    add_joints(topology, bands, tree.links);
+    add_joints(topology, bands, topology.joints, -1, tree.links);
+    add_joints(topology, bands, ties, 0, tree.links);
     tree.shoots.resize(count);
     const Around around = links_of_pieces(count, tree.links);
     const std::vector<char> rooted = find_feet(topology, bands, roots, tree);
@@ -175,6 +178,19 @@ ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vec
     FROND_ASSERT(tree.order.size() == count);
     for (size_t i = 0; i < count; i++) tree.shoots[i].end = end_of(bands, tree, around, int(i));
     return tree;
+}
+
+std::vector<SlabLink> links_beside_ties(const Bands& bands, const ChainTree& tree) {
+    std::vector<SlabLink> beside;
+    for (size_t i = 0; i < bands.links.size(); i++) {
+        const SlabLink& link = bands.links[i];
+        const Shoot &low = tree.shoots[size_t(link.low)], &high = tree.shoots[size_t(link.high)];
+        const bool is_tied = high.link >= 0 && is_tie(bands, tree.links[size_t(high.link)]) &&
+                             bands.pieces[size_t(link.high)].group != SUPPORT_GROUP;
+        if (link.level && link.length > 0 && is_tied && !low.down && !low.dropped && !high.dropped)
+            beside.push_back(link);
+    }
+    return beside;
 }
 
 void prune_tree(const Bands& bands, ChainTree& tree, double loose) {

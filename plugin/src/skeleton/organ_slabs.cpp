@@ -202,7 +202,7 @@ Slabs cut_slabs(const Surface& surface, const Topology& topology) {
         std::fill_n(group.begin() + surface.parts[p].first_triangle, surface.parts[p].triangle_count,
                     SUPPORT_GROUP + 1 + int(p));
     out.bands = cut_bands(topology, edges, distance, group, group, height);
-    out.tree = grow_tree(topology, out.bands, roots);
+    out.tree = grow_tree(topology, out.bands, roots, {});
 
     const Bands& bands = out.bands;
     out.slabs.resize(bands.pieces.size());
