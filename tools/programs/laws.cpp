@@ -42,6 +42,13 @@ bool moves_chain(const Standing& plant) {
     return plant.def.mechanics == FROND_MECHANICS_ROD || plant.def.mechanics == FROND_MECHANICS_SPRING_CHAIN;
 }
 
+// Returns whether anything bounds the lengths of a plant's capsules. The linear law knows no turns, and a cage has a
+// blade's stiffness against tension by its fibres only.
+bool keeps_lengths(const Standing& plant) {
+    return moves_chain(plant) ||
+           (plant.def.mechanics != FROND_MECHANICS_TET_LINEAR && plant.def.effects & FROND_EFFECT_FIBRES);
+}
+
 }  // namespace
 
 const char* name_of(Law law) {
@@ -57,7 +64,7 @@ const char* text_of(Law law) {
         "nothing is farther away than physics allows",
         "the energy ledger never loses: what steps dissipate is never below zero by more than their errors",
         "a change of mechanics adds no energy but what pins force",
-        "capsules keep their length, of cages up to 2.5 times",
+        "capsules keep their length, of cages with fibres up to 2.5 times",
         "a step solves no more than a hundred times what the median step does",
         "the same program gives the same bits, with any number of threads",
         "a snapshot goes on to the same bits",
@@ -97,7 +104,7 @@ void Laws::after_step(std::map<int, Standing>& plants, const Loads& loads, doubl
         must(frond_plant_get_def(plant.handle, &plant.def));
         if (checks(Law::FINITE)) check_finite(plant);
         if (checks(Law::FAR)) check_places(plant, loads);
-        if (checks(Law::STRETCH) && plant.def.mechanics != FROND_MECHANICS_TET_LINEAR)
+        if (checks(Law::STRETCH) && keeps_lengths(plant))
             check_lengths(plant, loads, loads.has_bodies || plants.size() > 1);
     }
     if (checks(Law::ENERGY)) check_energy(plants, dt);
