@@ -51,6 +51,8 @@ double distance_at(const Topology& topology, const Bands& bands, int triangle, c
     return da + wb * (db - da) + wc * (dc - da) - bands.entry[size_t(topology.triangle_component[size_t(triangle)])];
 }
 
+// Adds a link for each joint: of length 0 for a tie, as at a shared corner, and -1 for what only keeps the plant
+// together.
 void add_joints(const Topology& topology, const Bands& bands, const std::vector<Joint>& joints, double length,
                 std::vector<SlabLink>& links) {
     for (const Joint& joint : joints) {
@@ -182,8 +184,7 @@ ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vec
 
 std::vector<SlabLink> links_beside_ties(const Bands& bands, const ChainTree& tree) {
     std::vector<SlabLink> beside;
-    for (size_t i = 0; i < bands.links.size(); i++) {
-        const SlabLink& link = bands.links[i];
+    for (const SlabLink& link : bands.links) {
         const Shoot &low = tree.shoots[size_t(link.low)], &high = tree.shoots[size_t(link.high)];
         const bool is_tied = high.link >= 0 && is_tie(bands, tree.links[size_t(high.link)]) &&
                              bands.pieces[size_t(link.high)].group != SUPPORT_GROUP;
