@@ -61,6 +61,17 @@ protected:
         row.add_force(elements, x, f);
         return f;
     }
+    static constexpr double BACK = 1.0 / 3;  // of bdf2 with steps of one length
+    // Returns the forces of a stage that follows steps of h, far more of them by damping than elastic.
+    VecX damped_ahead(const Elements& elements, const VecX& x, const VecX& v, double h, const StageBase& base) const {
+        VecX f = VecX::Zero(x.size());
+        const VecX way = f;
+        BlockMatrix A;
+        A.set_pattern(elements.pattern);
+        A.set_zero();
+        row.add_ahead(elements, x, {way.data(), v.data(), 2 * h / 3, 1e6, {}, base}, f, A);
+        return f;
+    }
     Eigen::MatrixXd stiffness(const Elements& elements, const VecX& x, Tangent tangent) const {
         BlockMatrix K;
         K.set_pattern(elements.pattern);
@@ -171,6 +182,50 @@ TEST_P(EveryRod, ForceAndStiffnessAheadAreThoseOfTheirParts) {
             EXPECT_LT((dense(A) - matrix).norm(), 1e-12 * matrix.norm()) << "turn " << turn;
         }
     }
+}
+
+// Where a stage of bdf2 goes on from two positions, rates are differences of strain: what turns and moves as a whole
+// has none, however far; what is strained evenly has those that its velocities have.
+TEST_P(EveryRod, WhatTurnsAsAWholeIsNotDampedAhead) {
+    Dice dice(8);
+    const RodElements elements = make_rod_elements(chain_model(), which);
+    const double h = 0.02;
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        const Mat3 begin = dice.rotation();
+        const Vec3 turn = dice.rotation() * Vec3(0.5 * dice.uniform(0, 1), 0, 0);
+        const auto turned = [&](double steps) {
+            const Mat3 R = rotation_of<double>(Vec3(steps * turn)) * begin;
+            VecX x = elements.modelled;
+            for (int i = 0; i < elements.node_count; i += 2) {
+                point(x, i) = R * point(elements.modelled, i) + steps * Vec3(1, 2, 3);
+                point(x, i + 1) = rotation_vector<double>(R);
+            }
+            return x;
+        };
+        const VecX before = turned(0), last = turned(1), x = turned(2);
+        const VecX v = (1.5 * x - 2 * last + 0.5 * before) / h;
+        EXPECT_LT(damped_ahead(elements, x, v, h, {last.data(), before.data(), BACK}).norm(),
+                  1e-8 * damped_ahead(elements, x, v, h, {}).norm())
+            << repeat;
+    }
+}
+
+TEST_P(EveryRod, RatesOfStrainAheadAreThoseOfItsVelocities) {
+    Dice dice(9);
+    const RodElements elements = make_rod_elements(chain_model(), which);
+    const VecX x = deformed(elements, dice, 0.01, 0.5);
+    VecX v(x.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) v[i] = dice.uniform(-1, 1);
+    double off[2];
+    for (const int k : {0, 1}) {
+        const double h = 1e-4 / (k + 1);
+        const VecX last = x - h * v, before = x - 2 * h * v;
+        const VecX by_velocity = damped_ahead(elements, x, v, h, {}),
+                   by_strain = damped_ahead(elements, x, v, h, {last.data(), before.data(), BACK});
+        off[k] = (by_strain - by_velocity).norm() / by_velocity.norm();
+    }
+    EXPECT_LT(off[0], 1e-3);
+    EXPECT_NEAR(off[0] / off[1], 4, 0.4) << "bdf2 is of second order";
 }
 
 TEST_P(EveryRod, TurningAndMovingItAsAWholeCostsNothing) {

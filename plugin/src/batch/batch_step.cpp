@@ -169,9 +169,10 @@ unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<u
     const bool turns = system.row->batch->rotary_inertia != nullptr;
     if (turns) system.row->batch->rotary_inertia(elements, a.x, a.inertia);
     const double damping = damping_of(system, settings, a.element_damping);
+    const StageBase base = looks_back ? StageBase{a.x.data(), a.x_prev.data(), method.back} : StageBase{};
     system.row->batch->set_ahead(
         elements, a.x_from,
-        {a.way.data(), a.v_start.data(), method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
+        {a.way.data(), a.v_start.data(), method.step, a.element_damping.empty() ? damping : 0, a.element_damping, base},
         a.elastic, a.A, a.filled, a.seen, a.inverted.data());
     const double mass = 1 + method.step * settings.mass_damping;
     if (turns)

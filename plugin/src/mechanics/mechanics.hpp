@@ -74,12 +74,19 @@ struct Masses {
 // Derivative of the force: the exact one, or one that is always positive semi-definite.
 enum class Tangent { exact, positive };
 
+// Positions of which a stage begins at last + back (last - before), as x; null: it begins otherwise.
+struct StageBase {
+    const double *last = nullptr, *before = nullptr;
+    double back = 0;
+};
+
 // Data by which a solve extrapolates to the end of a step.
 struct Ahead {
     const double *way, *v;                       // displacement from there to where v leads [m], and v [m/s], as x
     double step;                                 // step of the stage [s]
     double damping;                              // stiffness-proportional, of all elements [s]
     const std::vector<double>& element_damping;  // and each element's own besides; empty: none [s]
+    StageBase base = {};
 };
 
 // Functions on a batch of plants: each number of a vector or a matrix is stored once a lane (core/lanes.hpp), and
@@ -121,6 +128,7 @@ struct Mechanics {
                                            VecX& f, BlockMatrix& K, BlockMatrix& D) = nullptr;
     // With K the positive stiffness at x and D its stiffness-proportional damping: adds the force at x minus K way
     // minus D v to f, and step^2 K + step D to A; returns the number of inverted tets. Null: use the functions above.
+    // What rotates may take rates of strain for D v: the change of strain from the stage's base.
     int (*add_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) = nullptr;
     // Computes the rotary inertia of each pair of nodes, position and rotation, by the rate of the rotation vector at x
     // [kg m^2]; null: no node rotates.

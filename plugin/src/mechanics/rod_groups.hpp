@@ -187,15 +187,18 @@ struct LastEnd {
     Lanes33<S> rate = {};  // rate_of(end), if used
 
     template <class Pieces>
-    FROND_INLINE Placed<S> place(const Pieces& pieces, const double* x) const {
-        RodEnd<S> begin = end;
-        if (!pieces.begins_at(node)) begin = Placed<S>::end_of(pieces, x, &RodSegment::a);
-        return Placed<S>(pieces, x, begin);
+    FROND_INLINE RodEnd<S> begin(const Pieces& pieces, const double* x) const {
+        if (pieces.begins_at(node)) return end;
+        return Placed<S>::end_of(pieces, x, &RodSegment::a);
     }
     template <class Pieces>
-    FROND_INLINE void go_on(const Pieces& pieces, const Placed<S>& at) {
+    FROND_INLINE Placed<S> place(const Pieces& pieces, const double* x) const {
+        return Placed<S>(pieces, x, begin(pieces, x));
+    }
+    template <class Pieces>
+    FROND_INLINE void go_on(const Pieces& pieces, const RodEnd<S>& to) {
         node = pieces.last_node();
-        end = at.b;
+        end = to;
     }
 };
 

@@ -88,7 +88,7 @@ struct Retract {
         for (size_t s = 0; s < elements.segments.size(); s += size_t(Pieces<S>::MANY)) {
             const Pieces<S> pieces(elements.segments, s);
             const Placed<S> after = last.place(pieces, end);
-            last.go_on(pieces, after);
+            last.go_on(pieces, after.b);
             pieces.put_second_ends(chord_after(pieces, from, look_at(pieces), after), held, out);
             if constexpr (IS_BATCH<S>) take_out_yielding(pieces, after.bent, within);
         }

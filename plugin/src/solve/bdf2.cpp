@@ -49,7 +49,8 @@ bool step_bdf2(Workspace& workspace, const StepInput& input, SolveReport& report
     // stops would tear at a plant that goes on.
     lead_held(w, input, step);
     predict_held(w, motion.x, input.h, motion.v);
-    return solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from}, report);
+    const StageBase base = {motion.x.data(), motion.history.x_prev.data(), back};
+    return solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from, nullptr, 0, nullptr, base}, report);
 }
 
 }  // namespace frond

@@ -22,6 +22,7 @@ struct Stage {
     const VecX* impulse = nullptr;   // [N s]
     int iterations = 0;              // Newton iterations at most; 0: as the settings say
     const VecX* undamped = nullptr;  // velocities that strain nothing at x_from [m/s]; null: none
+    StageBase base = {};             // whence x_base is, if from two positions
 };
 
 // Length beyond which a stage of rods is longer than the period of hanging parts [s].

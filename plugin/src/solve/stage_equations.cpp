@@ -84,7 +84,8 @@ void linearize_at_start(StageEquations& e) {
     const VecX& damped = is_rigid_way ? w.v_damped : w.v;
     if (e.at_once) {
         e.report.inverted = e.body.add_ahead(
-            *w.elements, from, {w.dv.data(), damped.data(), e.stage.step, e.apart ? 0 : e.rayleigh, w.element_damping},
+            *w.elements, from,
+            {w.dv.data(), damped.data(), e.stage.step, e.apart ? 0 : e.rayleigh, w.element_damping, e.stage.base},
             w.elastic, w.A);
         return start_residual(e, w.v, w.rhs);
     }
