@@ -86,7 +86,7 @@ struct Ahead {
     double step;                                 // step of the stage [s]
     double damping;                              // stiffness-proportional, of all elements [s]
     const std::vector<double>& element_damping;  // and each element's own besides; empty: none [s]
-    StageBase base = {};
+    StageBase base = {};                         // for what damps by the change of strain from there
 };
 
 // Functions on a batch of plants: each number of a vector or a matrix is stored once a lane (core/lanes.hpp), and
@@ -128,7 +128,7 @@ struct Mechanics {
                                            VecX& f, BlockMatrix& K, BlockMatrix& D) = nullptr;
     // With K the positive stiffness at x and D its stiffness-proportional damping: adds the force at x minus K way
     // minus D v to f, and step^2 K + step D to A; returns the number of inverted tets. Null: use the functions above.
-    // What rotates may take rates of strain for D v: the change of strain from the stage's base.
+    // Rods damp by the change of strain from ahead.base instead of by v, where that is given.
     int (*add_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) = nullptr;
     // Computes the rotary inertia of each pair of nodes, position and rotation, by the rate of the rotation vector at x
     // [kg m^2]; null: no node rotates.

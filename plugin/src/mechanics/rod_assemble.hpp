@@ -52,8 +52,9 @@ struct Assemble {
     template <class S>
     FROND_INLINE Lanes3<S> move(const Pieces<S>& pieces, int RodSegment::*end, int first, const S& c) const {
         const Lanes3<S> way = pieces.point(ahead->way, end, first);
-        return ahead->base.last ? way : way + c * pieces.point(ahead->v, end, first);
+        return damps_by_strains() ? way : way + c * pieces.point(ahead->v, end, first);
     }
+    FROND_INLINE bool damps_by_strains() const { return ahead->base.last && (damping || ahead->damping > 0); }
     // Adds the change of the gradient over the displacement ahead, by the stiffness, to the six numbers of each end.
     template <class S>
     FROND_INLINE void look_ahead(const Pieces<S>& pieces, const Placed<S>& at, const RodChange<S>& change, const S& c,
@@ -63,7 +64,7 @@ struct Assemble {
         const Lanes3<S> chord = move(pieces, &RodSegment::b, 0, c) - move(pieces, &RodSegment::a, 0, c);
         Lanes3<S> strain = change.strain_chord * chord + change.strain_a * turn_a + change.strain_b * turn_b;
         Lanes3<S> curvature = change.bend_b * turn_b - change.bend_a * turn_a;
-        if (ahead->base.last) {
+        if (damps_by_strains()) {
             base.find(pieces, at.piece, ahead->base);
             const S share = c * (1 / ahead->step);
             strain = strain + share * (strain + length * (at.bent.strain - base.strain));
